@@ -16,13 +16,13 @@
 namespace nef::bench {
 namespace {
 
-Polyhedron united(const std::vector<Polyhedron>& operands, std::size_t count, unsigned threads) {
+Polyhedron united(const std::vector<Polyhedron>& operands, std::size_t count, const Monitor& monitor) {
   Polyhedron result = operands[0];
-  for (std::size_t i = 1; i < count; ++i) result = unite(result, operands[i], threads);
+  for (std::size_t i = 1; i < count; ++i) result = unite(result, operands[i], monitor);
   return result;
 }
 
-std::vector<Polyhedron> build(const std::string& directory, unsigned threads, Report& report) {
+std::vector<Polyhedron> build(const std::string& directory, const Monitor& monitor, Report& report) {
   std::vector<Polyhedron> operands;
   double seconds = 0;
   double wall_seconds = 0;
@@ -30,7 +30,7 @@ std::vector<Polyhedron> build(const std::string& directory, unsigned threads, Re
     const Stopwatch watch;
     const nef::Stopwatch clock;
     MeshOptions options;
-    options.threads = threads;
+    options.monitor = monitor;
     options.as_surface = operand.surface;
     operands.push_back(from_mesh(operand.mesh, options));
     seconds += watch.seconds();
@@ -42,13 +42,13 @@ std::vector<Polyhedron> build(const std::string& directory, unsigned threads, Re
   return operands;
 }
 
-Report run(const std::string& directory, int repeat, unsigned threads) {
+Report run(const std::string& directory, int repeat, const Monitor& monitor) {
   const CaseKind kind = read_case_kind(directory);
   Report report;
   std::vector<Polyhedron> operands;
   for (int i = 0; i < repeat; ++i) {
     operands.clear();
-    operands = build(directory, threads, report);
+    operands = build(directory, monitor, report);
   }
   Polyhedron result;
   const auto operate = [&](const auto& operation) {
@@ -62,16 +62,16 @@ Report run(const std::string& directory, int repeat, unsigned threads) {
     }
   };
   if (kind.operation == Operation::kUnion) {
-    operate([&] { return united(operands, operands.size(), threads); });
+    operate([&] { return united(operands, operands.size(), monitor); });
   } else if (kind.operation == Operation::kUniteAll) {
-    operate([&] { return unite_all(operands, threads); });
+    operate([&] { return unite_all(operands, monitor); });
   } else if (kind.operation == Operation::kSubtractAll) {
-    operate([&] { return subtract(operands[0], unite_all(std::span(operands).subspan(1), threads), threads); });
+    operate([&] { return subtract(operands[0], unite_all(std::span(operands).subspan(1), monitor), monitor); });
   } else if (kind.operation == Operation::kDifference) {
-    const Polyhedron base = united(operands, operands.size() - 1, threads);
-    operate([&] { return subtract(base, operands.back(), threads); });
+    const Polyhedron base = united(operands, operands.size() - 1, monitor);
+    operate([&] { return subtract(base, operands.back(), monitor); });
   } else {
-    result = united(operands, operands.size(), threads);
+    result = united(operands, operands.size(), monitor);
     const std::vector<Rational3> points = query_points(std::stoi(kind.name.substr(kind.name.find('-') + 1)));
     static_cast<void>(contains(result, points[0]));  // CGAL's structure is there after the union; build ours, too
     for (int i = 0; i < repeat; ++i) {
@@ -107,7 +107,7 @@ int main(int argc, char** argv) {
   try {
     const int repeat = argc > 2 ? std::max(1, std::atoi(argv[2])) : 1;
     const int threads = argc > 3 ? std::max(1, std::atoi(argv[3])) : 1;
-    nef::bench::run(argv[1], repeat, static_cast<unsigned>(threads)).print();
+    nef::bench::run(argv[1], repeat, nef::Monitor().on_threads(static_cast<unsigned>(threads))).print();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "nef_bench_nef: %s\n", error.what());
     return 2;

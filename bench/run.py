@@ -7,6 +7,7 @@
   bench/run.py --plot FOLDER ...  draws the table as figures, too (bench/plot.py)
   bench/run.py --manifold PREFIX [CASE ...]    ours beside the Manifold library installed at PREFIX, which is fast and
                                   not exact: build, operation, export to triangles of doubles, peak memory
+  bench/run.py --before BIN [CASE ...]         ours beside another build of ours, whose programs are in the folder BIN
 
 An engine is a program nef_bench_<engine> CASE_DIRECTORY REPEAT that prints one line of JSON. Each
 case runs in a process of its own, so that peak memory is the case's; with --passes the engines
@@ -140,15 +141,19 @@ def build_manifold_peer(args, root):
     return os.path.join(folder, "nef_bench_manifold")
 
 
-def beside_manifold(args, binaries):
-    """One line a case: ours, theirs, ours / theirs."""
+def beside(args, ours_binary, peer, peer_binary, cases):
+    """One line a case: ours, the peer's, ours / the peer's. Exit code 1 if a build of ours counts other items."""
     keys = (("build", "build_s"), ("operation", "op_s"), ("export", "export_s"), ("peak MB", "peak_kb"))
-    header = ["case"] + [text for name, _ in keys for text in (name, "Manifold", "ratio")] + ["vertices", "B/vertex"]
+    header = ["case"] + [text for name, _ in keys for text in (name, peer, "ratio")] + ["vertices", "B/vertex"]
     rows = []
     results = {}
-    for name in args.cases or MANIFOLD_CASES:
-        best = results[name] = measured(args, name, binaries)
-        ours, theirs = best["nef"], best["manifold"]
+    differ = False
+    for name in args.cases or cases:
+        best = results[name] = measured(args, name, {"nef": ours_binary, peer: peer_binary})
+        ours, theirs = best["nef"], best[peer]
+        if peer == "before" and verdict(ours, theirs) == "DIFFER":
+            differ = True
+            print(f"{name}: counts differ: {counts_of(theirs)} before, {counts_of(ours)} now", file=sys.stderr)
         row = [name]
         for _, key in keys:
             for report in (ours, theirs):
@@ -162,7 +167,7 @@ def beside_manifold(args, binaries):
     if args.json:
         with open(args.json, "w", encoding="utf-8") as out:
             json.dump(results, out, indent=1)
-    return 0
+    return 1 if differ else 0
 
 
 def print_table(header, rows):
@@ -215,6 +220,7 @@ def main():
     parser.add_argument("--json", default=None, help="write all reports to this file")
     parser.add_argument("--sweep", action="store_true")
     parser.add_argument("--manifold", default=None, metavar="PREFIX", help="where the Manifold library is installed")
+    parser.add_argument("--before", default=None, metavar="BIN", help="folder with nef_bench_nef of another build of ours")
     parser.add_argument("--plot", default=None, metavar="FOLDER", help="draw the table as SVG (needs python3-matplotlib)")
     parser.add_argument("--only", default="", help="engines, comma-separated: nef,cgal,corefinement")
     parser.add_argument("cases", nargs="*")
@@ -232,7 +238,10 @@ def main():
         with contextlib.redirect_stdout(Tee(printed)):
             if args.manifold:
                 peer = build_manifold_peer(args, root)
-                code = beside_manifold(args, {"nef": engines["nef"], "manifold": peer})
+                code = beside(args, engines["nef"], "Manifold", peer, MANIFOLD_CASES)
+            elif args.before:
+                code = beside(args, engines["nef"], "before", os.path.join(args.before, "nef_bench_nef"),
+                              list(dict.fromkeys(CASES + MANIFOLD_CASES)))
             else:
                 code = sweep(args, engines) if args.sweep else table(args, engines)
     if args.plot:

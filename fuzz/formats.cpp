@@ -2,13 +2,16 @@
 #include "fuzz/formats.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "apps/planner/path/path_file.h"
 #include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid/pose_file.h"
 #include "apps/planner/scene/scene.h"
+#include "apps/program/expression/expression.h"
+#include "apps/program/expression/openscad.h"
 #include "apps/visual_hull/formats/colmap.h"
 #include "apps/visual_hull/formats/matlab.h"
 #include "apps/visual_hull/formats/opencv_storage.h"
@@ -21,15 +24,11 @@
 #include "nef/export/to_mesh.h"
 #include "nef/io/cgal/cgal_nef3.h"
 #include "nef/io/file_bytes.h"
-#include "nef/io/mesh/glb_mesh.h"
-#include "nef/io/mesh/mesh_reader.h"
+#include "nef/io/mesh/mesh_formats.h"
 #include "nef/io/mesh/mesh_writer.h"
-#include "nef/io/mesh/threemf_mesh.h"
 #include "nef/io/native/native_binary.h"
 #include "nef/io/native/native_format.h"
 #include "nef/mesh/mesh_check.h"
-#include "nef/program/expression/expression.h"
-#include "nef/program/expression/openscad.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nef::fuzz {
@@ -71,16 +70,18 @@ void check_mesh_file(const Mesh& mesh) {
 // Mesh formats hold bounded solids.
 Mesh solid_mesh(const Polyhedron& set) { return to_mesh(unite(regularize(set), make_box({0, 0, 0}, {1, 1, 1}))).mesh; }
 
-template <std::string (*kBytes)(const Mesh&, const MeshWriteOptions&), bool kBinary>
-std::string mesh_bytes(const Polyhedron& set, const std::string& /*text*/) {
-  MeshWriteOptions options;
-  options.binary = kBinary;
-  return kBytes(solid_mesh(set), options);
-}
-
-template <Mesh (*kRead)(std::string_view, const std::string&)>
-void read_mesh_bytes(const std::string& text) {
-  check_mesh_file(kRead(text, "file"));
+// A format of the table of mesh formats, in one of its forms.
+Format mesh_format(const MeshFormat& format, bool binary) {
+  return {(binary && format.has_two_forms() ? "binary-" : "") + std::string(format.extension),
+          [&format, binary](const Polyhedron& set, const std::string& /*text*/) {
+            MeshWriteOptions options;
+            options.binary = binary;
+            return format.write(solid_mesh(set), options);
+          },
+          [&format](const std::string& bytes) {
+            MeshParts parts;
+            check_mesh_file(format.read(bytes, "file", &parts));
+          }};
 }
 
 std::string planner_scene(const Polyhedron& /*set*/, const std::string& text) {
@@ -250,6 +251,18 @@ void read_rigid_path(const std::string& text) {
   static_cast<void>(planner::read_poses(folder.file("path.json")));
 }
 
+std::string path_lines(const Polyhedron& /*set*/, const std::string& /*text*/) {
+  return "0 0 0 0 0 0 1\n\n1/3 0.5, 1e1 0 -2 0.5 1\r\n-1,2,3 0 0 0 1\n";
+}
+
+// As programs do: a path that does not turn is one of translations.
+void read_path_lines(const std::string& text) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.file("path.txt");
+  write_file(file, text);
+  if (!planner::read_poses(file)) static_cast<void>(planner::read_waypoints(file));
+}
+
 std::string proof_of_path(const Polyhedron& /*set*/, const std::string& /*text*/) {
   return R"({"claim": {"box": [["-9", "-9", "-9"], ["9", "9", "9"]], "contact": "allow",
   "obstacles": [[["-3", "3/2", "-3"], ["3", "3", "-3"], ["3", "3", "3"]]],
@@ -283,81 +296,88 @@ void read_proof_file(const std::string& text) {
   static_cast<void>(planner::complaint_about(planner::parse_proof(text, "file")));
 }
 
-constexpr std::array kFormats{
-    Format{"off", mesh_bytes<off_bytes, false>, read_mesh_bytes<read_off>},
-    Format{"obj", mesh_bytes<obj_bytes, false>, read_mesh_bytes<read_obj>},
-    Format{"stl", mesh_bytes<stl_bytes, false>, read_mesh_bytes<read_stl>},
-    Format{"binary-stl", mesh_bytes<stl_bytes, true>, read_mesh_bytes<read_stl>},
-    Format{"ply", mesh_bytes<ply_bytes, false>, read_mesh_bytes<read_ply>},
-    Format{"binary-ply", mesh_bytes<ply_bytes, true>, read_mesh_bytes<read_ply>},
-    Format{"glb", [](const Polyhedron& set, const std::string& /*text*/) { return glb_bytes(solid_mesh(set)); },
-           read_mesh_bytes<read_glb>},
-    Format{"3mf", [](const Polyhedron& set, const std::string& /*text*/) { return threemf_bytes(solid_mesh(set), {}); },
-           read_mesh_bytes<read_3mf>},
-    Format{"nef", [](const Polyhedron& set, const std::string& /*text*/) { return native_text(set); },
-           [](const std::string& text) { check_set(read_native(text, "file")); }},
-    Format{"binary-nef",
-           [](const Polyhedron& set, const std::string& /*text*/) {
-             return native_binary(symmetric_difference(set, make_halfspace(1, 1, 0, -2, false)));
-           },
-           [](const std::string& text) { check_set(read_native(text, "file")); }},
-    Format{"unbounded-nef",
-           [](const Polyhedron& set, const std::string& /*text*/) {
-             return native_text(symmetric_difference(set, make_halfspace(1, 1, 0, -2, false)));
-           },
-           [](const std::string& text) { check_set(read_native(text, "file")); }},
-    Format{"nef3", [](const Polyhedron& set, const std::string& /*text*/) { return nef3_text(set); },
-           [](const std::string& text) { check_set(read_nef3(text, "file")); }},
-    Format{"expression", expression, [](const std::string& text) { check_set(evaluate_expression(text)); }},
-    Format{"csg", openscad_model, read_openscad_model},
-    Format{"planner-scene", planner_scene, read_planner_scene},
-    Format{"cfg", ompl_problem, read_ompl_problem},
-    Format{"waypoints", waypoints, read_waypoints_file},
-    Format{"rigid-path", rigid_path, read_rigid_path},
-    Format{"path-proof", proof_of_path, read_proof_file},
-    Format{"collision-proof", proof_of_collision, read_proof_file},
-    Format{"barrier-proof", proof_of_barrier, read_proof_file},
-    Format{"hull-scene", hull_scene,
-           [](const std::string& text) {
-             static_cast<void>(visual_hull::read_json_scene(text, "/nonexistent/scene.json"));
-           }},
-    Format{"vsh", vsh_scene,
-           [](const std::string& text) { static_cast<void>(visual_hull::read_vsh(text, "/nonexistent/scene.vsh")); }},
-    Format{"matrices", matrix_scene,
-           [](const std::string& text) {
-             static_cast<void>(visual_hull::read_text_scene(text, "/nonexistent/scene.txt"));
-           }},
-    Format{"opencv-yaml", opencv_yaml,
-           [](const std::string& text) {
-             static_cast<void>(visual_hull::read_opencv_storage(text, "/nonexistent/scene.yml", ""));
-           }},
-    Format{"opencv-xml", opencv_xml,
-           [](const std::string& text) {
-             static_cast<void>(visual_hull::read_opencv_storage(text, "/nonexistent/scene.xml", ""));
-           }},
-    Format{"matlab", matlab_file,
-           [](const std::string& bytes) {
-             const test::TemporaryFolder folder;
-             write_file(folder.file("scene.mat"), bytes);
-             static_cast<void>(visual_hull::read_matlab(folder.file("scene.mat"), ""));
-           }},
-    Format{"parameter-blocks", parameter_blocks,
-           [](const std::string& text) {
-             static_cast<void>(visual_hull::read_parameter_blocks(text, "/nonexistent/scene.txt"));
-           }},
-    Format{"transforms", transforms_scene,
-           [](const std::string& text) {
-             static_cast<void>(visual_hull::read_json_scene(text, "/nonexistent/transforms.json"));
-           }},
-    Format{"colmap", colmap_model, read_colmap_model},
-    Format{"middlebury", middlebury_scene,
-           [](const std::string& text) {
-             static_cast<void>(visual_hull::read_text_scene(text, "/nonexistent/scene.txt"));
-           }},
-};
+std::vector<Format> other_formats() {
+  return {
+      Format{"nef", [](const Polyhedron& set, const std::string& /*text*/) { return native_text(set); },
+             [](const std::string& text) { check_set(read_native(text, "file")); }},
+      Format{"binary-nef",
+             [](const Polyhedron& set, const std::string& /*text*/) {
+               return native_binary(symmetric_difference(set, make_halfspace(1, 1, 0, -2, false)));
+             },
+             [](const std::string& text) { check_set(read_native(text, "file")); }},
+      Format{"unbounded-nef",
+             [](const Polyhedron& set, const std::string& /*text*/) {
+               return native_text(symmetric_difference(set, make_halfspace(1, 1, 0, -2, false)));
+             },
+             [](const std::string& text) { check_set(read_native(text, "file")); }},
+      Format{"nef3", [](const Polyhedron& set, const std::string& /*text*/) { return nef3_text(set); },
+             [](const std::string& text) { check_set(read_nef3(text, "file")); }},
+      Format{"expression", expression, [](const std::string& text) { check_set(evaluate_expression(text)); }},
+      Format{"csg", openscad_model, read_openscad_model},
+      Format{"planner-scene", planner_scene, read_planner_scene},
+      Format{"cfg", ompl_problem, read_ompl_problem},
+      Format{"waypoints", waypoints, read_waypoints_file},
+      Format{"rigid-path", rigid_path, read_rigid_path},
+      Format{"path-lines", path_lines, read_path_lines},
+      Format{"path-proof", proof_of_path, read_proof_file},
+      Format{"collision-proof", proof_of_collision, read_proof_file},
+      Format{"barrier-proof", proof_of_barrier, read_proof_file},
+      Format{"hull-scene", hull_scene,
+             [](const std::string& text) {
+               static_cast<void>(visual_hull::read_json_scene(text, "/nonexistent/scene.json"));
+             }},
+      Format{"vsh", vsh_scene,
+             [](const std::string& text) { static_cast<void>(visual_hull::read_vsh(text, "/nonexistent/scene.vsh")); }},
+      Format{"matrices", matrix_scene,
+             [](const std::string& text) {
+               static_cast<void>(visual_hull::read_text_scene(text, "/nonexistent/scene.txt"));
+             }},
+      Format{"opencv-yaml", opencv_yaml,
+             [](const std::string& text) {
+               static_cast<void>(visual_hull::read_opencv_storage(text, "/nonexistent/scene.yml", ""));
+             }},
+      Format{"opencv-xml", opencv_xml,
+             [](const std::string& text) {
+               static_cast<void>(visual_hull::read_opencv_storage(text, "/nonexistent/scene.xml", ""));
+             }},
+      Format{"matlab", matlab_file,
+             [](const std::string& bytes) {
+               const test::TemporaryFolder folder;
+               write_file(folder.file("scene.mat"), bytes);
+               static_cast<void>(visual_hull::read_matlab(folder.file("scene.mat"), ""));
+             }},
+      Format{"parameter-blocks", parameter_blocks,
+             [](const std::string& text) {
+               static_cast<void>(visual_hull::read_parameter_blocks(text, "/nonexistent/scene.txt"));
+             }},
+      Format{"transforms", transforms_scene,
+             [](const std::string& text) {
+               static_cast<void>(visual_hull::read_json_scene(text, "/nonexistent/transforms.json"));
+             }},
+      Format{"colmap", colmap_model, read_colmap_model},
+      Format{"middlebury", middlebury_scene,
+             [](const std::string& text) {
+               static_cast<void>(visual_hull::read_text_scene(text, "/nonexistent/scene.txt"));
+             }},
+  };
+}
+
+std::vector<Format> all_formats() {
+  std::vector<Format> all;
+  for (const MeshFormat& format : mesh_formats()) {
+    all.push_back(mesh_format(format, false));
+    if (format.has_two_forms()) all.push_back(mesh_format(format, true));
+  }
+  const std::vector<Format> others = other_formats();
+  all.insert(all.end(), others.begin(), others.end());
+  return all;
+}
 
 }  // namespace
 
-std::span<const Format> formats() { return kFormats; }
+std::span<const Format> formats() {
+  static const std::vector<Format> all = all_formats();
+  return all;
+}
 
 }  // namespace nef::fuzz

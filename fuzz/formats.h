@@ -4,22 +4,23 @@
 // promises. For damaged files (files.cpp) and for libFuzzer (libfuzzer/).
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
-#include <string_view>
 
 #include "nef/polyhedron.h"
 
 namespace nef::fuzz {
 
 struct Format {
-  std::string_view name;
+  std::string name;
   /// A legal file; mesh formats, and formats of polyhedra, hold what they can of the set, others what its text says.
-  std::string (*write)(const Polyhedron& set, const std::string& text);
+  std::function<std::string(const Polyhedron& set, const std::string& text)> write;
   /// Throws Error for bytes that are refused, Failure for a broken promise.
-  void (*read)(const std::string& bytes);
+  std::function<void(const std::string& bytes)> read;
 };
 
+/// The mesh formats of the table of the library (nef/io/mesh/mesh_formats.h), then all others.
 std::span<const Format> formats();
 
 }  // namespace nef::fuzz

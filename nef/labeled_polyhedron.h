@@ -59,7 +59,7 @@ class LabeledPolyhedron {
       };
       return intern(f(a.labels_[clamp(x, a.labels_)], b.labels_[clamp(y, b.labels_)]));
     };
-    Polyhedron set = nef::overlay(a.set_, b.set_, combined, 1, monitor);
+    Polyhedron set = nef::overlay(a.set_, b.set_, combined, monitor);
     // f may have been asked for pairs that meet nowhere, too.
     CompactMarks compact = compact_marks(set);
     std::vector<Label> in_use;
@@ -73,7 +73,7 @@ class LabeledPolyhedron {
     const auto satisfies = [&](LabelId x, LabelId) {
       return static_cast<LabelId>(x < labels_.size() && predicate(labels_[x]));
     };
-    return nef::overlay(set_, Polyhedron(), satisfies, 1, monitor);
+    return nef::overlay(set_, Polyhedron(), satisfies, monitor);
   }
 
  private:

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/polyhedron.h"
 
+#include <atomic>
 #include <mutex>
+#include <utility>
 
+#include "nef/complex/predicates_of_sets.h"
 #include "nef/location/query_structure.h"
-#include "nef/query/predicates_of_sets.h"
 #include "nef/synthesis/complex_builder.h"
 
 namespace nef {
@@ -40,6 +42,14 @@ Polyhedron::Polyhedron(Complex&& complex) {
   auto body = std::make_shared<Body>();
   body->complex = std::move(complex);
   body_ = std::move(body);
+}
+
+Complex Polyhedron::take_complex() && {
+  const std::shared_ptr<const Body> body = std::exchange(body_, nullptr);
+  // Bodies are made as what may change, and nobody else sees one that is held once.
+  if (body.use_count() != 1) return Body::of(body).complex;
+  std::atomic_thread_fence(std::memory_order_acquire);  // after what the last other holder did
+  return std::move(const_cast<Body&>(*body).complex);
 }
 
 const Complex& Polyhedron::complex() const { return Body::of(body_).complex; }

@@ -15,6 +15,7 @@
 
 #include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
+#include "nef/complex/item_ref.h"
 #include "nef/number/number.h"
 
 namespace nef {
@@ -33,6 +34,8 @@ class Polyhedron {
   explicit Polyhedron(Complex&& complex);
 
   [[nodiscard]] const Complex& complex() const;
+  /// The complex out of a set that is given up: moved if no other set shares it, else copied.
+  [[nodiscard]] Complex take_complex() &&;
 
   /// The representation is unique, so these are O(1).
   [[nodiscard]] bool is_empty() const;
@@ -54,25 +57,24 @@ class Polyhedron {
 };
 
 // Boolean operations (thesis chapter 5): exact, total, O((n + k) log n) for n items and k
-// crossings on well-shaped input. On up to `threads` threads (0: as many as the machine has) where the sets are large
+// crossings on well-shaped input. On the threads of `monitor` where the sets are large
 // enough to gain by it; the result is the same, item for item, for any number of them. What may take long is given a
 // monitor: who stops it, is told how far it has come, and counts its predicates.
-Polyhedron unite(const Polyhedron& a, const Polyhedron& b, unsigned threads = 1, const Monitor& monitor = {});
-Polyhedron intersect(const Polyhedron& a, const Polyhedron& b, unsigned threads = 1, const Monitor& monitor = {});
-Polyhedron subtract(const Polyhedron& a, const Polyhedron& b, unsigned threads = 1, const Monitor& monitor = {});
-Polyhedron symmetric_difference(const Polyhedron& a, const Polyhedron& b, unsigned threads = 1,
-                                const Monitor& monitor = {});
+Polyhedron unite(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor = {});
+Polyhedron intersect(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor = {});
+Polyhedron subtract(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor = {});
+Polyhedron symmetric_difference(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor = {});
 
 /// The union (intersection) of any number of sets: nothing (everything) for none. Pairs of sets are
-/// combined smallest first on up to `threads` threads (0: as many as the machine has).
-Polyhedron unite_all(std::span<const Polyhedron> sets, unsigned threads = 1, const Monitor& monitor = {});
-Polyhedron intersect_all(std::span<const Polyhedron> sets, unsigned threads = 1, const Monitor& monitor = {});
+/// combined smallest first on the threads of `monitor`.
+Polyhedron unite_all(std::span<const Polyhedron> sets, const Monitor& monitor = {});
+Polyhedron intersect_all(std::span<const Polyhedron> sets, const Monitor& monitor = {});
 
 /// A \ B etc. for marks of any kind: the result is marked f(mark in a, mark in b) everywhere.
 /// f is asked once for each pair of labels that occur, maybe for others; InputError if it gives kOutside.
 /// With several threads f is called by any of them, one at a time.
 Polyhedron overlay(const Polyhedron& a, const Polyhedron& b, const std::function<LabelId(LabelId, LabelId)>& f,
-                   unsigned threads = 1, const Monitor& monitor = {});
+                   const Monitor& monitor = {});
 
 // Unary operations: O(n).
 Polyhedron complement(const Polyhedron& a);
@@ -110,16 +112,11 @@ struct AffineMap {
 Polyhedron transform(const Polyhedron& a, const AffineMap& map, const Monitor& monitor = {});
 
 /// What holds a point.
-struct Location {
-  enum class Kind : std::uint8_t { kVertex, kEdge, kFacet, kVolume };
-  Kind kind = Kind::kVolume;
-  std::uint32_t index = 0;  ///< vertex, halfedge, facet or volume
-  LabelId mark = 0;
+struct Location : ItemRef {  // never none
+  Location() : ItemRef(kOuterVolume) {}
+  Location(ItemRef item, LabelId label) : ItemRef(item), mark(label) {}
 
-  [[nodiscard]] VertexId vertex() const { return VertexId{index}; }
-  [[nodiscard]] HalfedgeId halfedge() const { return HalfedgeId{index}; }
-  [[nodiscard]] FacetId facet() const { return FacetId{index}; }
-  [[nodiscard]] VolumeId volume() const { return VolumeId{index}; }
+  LabelId mark = 0;
 };
 
 /// Exact point location. O(log n) expected after the structure is built.

@@ -1,18 +1,21 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks that fuzz/formats.cpp feeds every reader of files. Prints those that it does not; exits 1 if there are any.
+"""Checks that fuzz/formats.cpp and the table of mesh formats feed every reader of files. Prints those that it does not; exits 1 if there are any.
 
 A reader is a function read_*, parse_* or evaluate_* that a header of the folders below declares. It is fuzzed if the text of
-fuzz/formats.cpp calls it, or if a function that is fuzzed calls it: those have an entry in THROUGH, which says which one.
+one of these names it, or if a function that is fuzzed calls it: those have an entry in THROUGH, which says which one.
 """
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-FOLDERS = ["nef/io", "nef/io/mesh", "nef/io/native", "nef/io/cgal", "nef/program/expression", "nef/program", "nef/command/apply",
+FOLDERS = ["nef/io", "nef/io/mesh", "nef/io/native", "nef/io/cgal", "apps/program/expression", "apps/program", "apps/nef/command/apply",
            "apps/visual_hull/formats", "apps/planner/scene", "apps/planner/path",
            "apps/planner/proofs", "apps/planner/rigid"]
+
+# What the fuzzer takes its readers from: its own list, and the table of mesh formats.
+FUZZED = ["fuzz/formats.cpp", "nef/io/mesh/mesh_formats.cpp"]
 
 # Readers that another one calls, and what reads no format of its own.
 THROUGH = {
@@ -30,6 +33,7 @@ THROUGH = {
     "parse_expression": "evaluate_expression",
     "parse_exact_json": "parse_scene",
     "parse_numbers": "words of the command line",
+    "parse_lines": "read_waypoints and read_poses, which it reads for",
     "parse_triple": "words of the command line",
     "parse_steps": "evaluate_expression, a line each",
     "read_polygons": "read_json_scene, whose rings it reads",
@@ -47,7 +51,7 @@ def readers():
 
 
 def main():
-    fuzzed = (ROOT / "fuzz/formats.cpp").read_text()
+    fuzzed = "".join((ROOT / name).read_text() for name in FUZZED)
     complaints = []
     known = set()
     for header, name in readers():

@@ -13,13 +13,13 @@ import sys
 # The order of docs/architecture.md. A folder may include those before it, and itself.
 CORE = [
     "base", "number", "geometry", "sphere_map", "complex", "location", "synthesis", "boolean", "query", "mesh",
-    "construct", "operation", "import", "export", "validation", "distance", "parts", "remeshing", "io", "tiles",
-    "program", "view", "command",
+    "construct", "operation", "import", "export", "validation", "distance", "parts", "io", "tiles",
 ]
 # The public face stands between the folders that make it and those that use it.
 FACE = "polyhedron.h", "labeled_polyhedron.h"
-APPS = {"minkowski": set(), "nef": {"minkowski"}, "visual_hull": set(), "planner": {"minkowski"},
-        "nef_mpi": {"minkowski", "visual_hull"}}
+SHARED = {"program", "remeshing", "view"}  # what programs share
+APPS = {"program": set(), "remeshing": set(), "view": set(), "minkowski": SHARED, "nef": SHARED | {"minkowski"},
+        "visual_hull": SHARED, "planner": SHARED | {"minkowski"}, "nef_mpi": SHARED | {"minkowski", "visual_hull"}}
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 INCLUDE = re.compile(r'^#include "((?:nef|apps|tests|fuzz|bench|python)/[^"]+)"', re.MULTILINE)
@@ -31,8 +31,6 @@ def allowed(source: pathlib.PurePath, target: pathlib.PurePath) -> bool:
     if target.parts[0] not in ("nef", "apps"):
         return False
     if source.parts[0] == "apps":
-        if target.parts[:2] == ("nef", "command"):
-            return source.parts[1] == "nef"  # what programs share is in nef/program
         return target.parts[0] == "nef" or target.parts[1] in APPS[source.parts[1]] | {source.parts[1]}
     if target.parts[0] == "apps":
         return False

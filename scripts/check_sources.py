@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Whether long sources open with what they do, and whether the pages name files that exist: every path in backticks that
-begins with a folder of the repository, and every relative link. Prints what does not hold; exits 1 if anything does not.
+"""Whether long sources open with what they do, whether the pages name files that exist (every path in backticks that begins
+with a folder of the repository, and every relative link), whether ctest can run every test by its name, and whether each
+source has a test near it (scripts/tests_of.py). Prints what does not hold; exits 1 if anything does not.
 
 Usage: scripts/check_sources.py
 """
 import pathlib
 import re
 import sys
+
+import tests_of
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FOLDERS = ["nef", "apps", "python", "tests", "fuzz", "bench", "scripts", "docs", "data", ".ci"]
@@ -19,6 +22,10 @@ CODE = re.compile(r"^```.*?^```|^ {4}.*?$", re.MULTILINE | re.DOTALL)
 LONG = 150
 WORDS = 12
 SOURCES = ["nef", "apps", "python"]
+
+# CMake splits lists at semicolons, and Catch takes a name that begins with a dash for an option: ctest then passes
+# without running the test.
+TEST_NAME = re.compile(r'TEST_CASE\(\s*"((?:[^"\\]|\\.)*)"')
 
 # Paths that stand for others.
 PLACEHOLDERS = {"tests/NAME", "nef/FOLDER/NAME.cpp"}
@@ -56,8 +63,22 @@ def silent_sources() -> list[str]:
     return complaints
 
 
+def unrunnable_tests() -> list[str]:
+    complaints = []
+    for path in sorted((ROOT / "tests").rglob("*.cpp")):
+        for name in TEST_NAME.findall(path.read_text(encoding="utf-8")):
+            if ";" in name or name.startswith("-"):
+                complaints.append(f"{path.relative_to(ROOT)}: ctest cannot run the test '{name}': no semicolon, no dash in front")
+    return complaints
+
+
+def untested_sources() -> list[str]:
+    advice = "include its header in one, or name its path in a comment of the test that meets it"
+    return [f"{source} is far from any test: {advice}" for source in tests_of.untested()]
+
+
 def main() -> int:
-    complaints = silent_sources() + [line for page in pages() for line in dead_paths(page)]
+    complaints = silent_sources() + untested_sources() + unrunnable_tests() + [line for page in pages() for line in dead_paths(page)]
     print("\n".join(complaints), end="\n" if complaints else "")
     return 1 if complaints else 0
 

@@ -42,10 +42,10 @@ POOL = {
     "test_minkowski": (60, 160, "apps/minkowski/", "tests/minkowski/"),
     "test_visual_hull": (60, 100, "apps/visual_hull/", "tests/visual_hull/"),
     "test_planner": (90, 450, "apps/planner/", "tests/planner/"),
-    "test_view": (30, 20, "nef/view/", "tests/view/"),
+    "test_view": (30, 20, "apps/view/", "tests/view/"),
     "test_nef_mpi": (20, 300, "apps/nef_mpi/", "tests/nef_mpi/"),
-    "test_remeshing": (20, 20, "nef/remeshing/", "tests/remeshing/"),
-    "test_command": (40, 250, "apps/nef/", "nef/command/", "nef/program/", "tests/command/"),
+    "test_remeshing": (20, 20, "apps/remeshing/", "tests/remeshing/"),
+    "test_command": (40, 250, "apps/nef/", "apps/nef/command/", "apps/program/", "tests/command/"),
 }
 
 

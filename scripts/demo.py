@@ -149,7 +149,7 @@ def main() -> None:
     demo.run("nef", "eval", "box(0,0,0, 1,1,1)", "-o", demo.path("robot.nef"))
     demo.run("nef", "eval", "box(4,0,0, 5,3,3) - box(4,1,1, 5,2,2)", "-o", demo.path("wall.nef"))
     demo.run("minkowski", "--configuration-space", "--robot", demo.path("robot.nef"), "--obstacles",
-             demo.path("wall.nef"), "--box=0,0,0", "8,2,2", "-o", demo.path("free_space.nef"))
+             demo.path("wall.nef"), "--box=0,0,0,8,2,2", "-o", demo.path("free_space.nef"))
     demo.show(demo.path("free_space.nef"), source="0.4,-1.6,0.7")
     demo.run("planner", "--tight", "data/planner/s1_tight_hole.json")
 

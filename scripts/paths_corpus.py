@@ -79,6 +79,27 @@ def prism(rng: random.Random, sides: int, dented: bool) -> Mesh:
     return points, faces
 
 
+# Radius and height along a flange with a hub and a stepped bore.
+FLANGE = (
+    *((10, 0), (14, 0), (14, 2), (16, 2), (16.5, 2.5), (16.5, 5), (16, 5.5), (13, 5.5), (12.5, 6), (12.5, 12)),
+    *((13, 12.5), (13, 16), (12, 17), (10, 17), (9.6, 16.8), (9.6, 12), (8, 12), (8, 8), (9, 8), (9, 1)),
+)
+
+
+def flange(sides: int, turn: float) -> Mesh:
+    """As a lathe makes it, about the z axis: two of them have very many places where sides of their sum nearly meet."""
+    points: list[Point] = []
+    faces = []
+    for i, (radius, height) in enumerate(FLANGE):
+        j = (i + 1) % len(FLANGE)
+        for k in range(sides):
+            angle = 2 * math.pi * k / sides + turn
+            m = (k + 1) % sides
+            points.append((radius * math.cos(angle), radius * math.sin(angle), height))
+            faces += [[i * sides + k, i * sides + m, j * sides + m], [i * sides + k, j * sides + m, j * sides + k]]
+    return points, faces
+
+
 def turned(rng: random.Random, mesh: Mesh, by: float = 1.0, to: Point = (0, 0, 0)) -> Mesh:
     """Turned by a random rotation, scaled and shifted, in doubles."""
     w, x, y, z = (rng.gauss(0, 1) for _ in range(4))
@@ -394,6 +415,14 @@ class Corpus:
             f"minkowski {dent} {ball} -o s.nef",
             f"minkowski {ball} {ball} -o c.nef",
             f"minkowski {dent} {ball} --union queue -o q.nef",
+        )
+        of_twelve = self.write("flange12.off", off(flange(12, 0)))
+        of_seven = self.write("flange7.off", off(flange(7, 0.3)))
+        self.add(
+            "sum of flanges",
+            f"minkowski {of_twelve} {of_seven} -o s.nef",
+            f"minkowski {of_twelve} {of_seven} --negate-b -o d.nef",
+            f"minkowski {of_seven} --ball 1/2,4 --close -o c.nef",
         )
         for i in range(4):
             a = self.write(f"sum{i}a.txt", f"({expression(rng, 1)}) * box(-5,-5,-5, 5,5,5)")

@@ -26,8 +26,9 @@ namespace nef::minkowski {
 /// How sums are made: how the sums of the pairs of cells are united, or without cells. The set is the same for each.
 enum class UnionStrategy : std::uint8_t {
   kAuto,         ///< as kConvolution or kQueue, whichever is likely to be the faster
-  kConvolution,  ///< no cells: the facets of the reduced convolution are arranged; bounded sets that lie in the closure
-                 ///< of their interiors, others (and some rare ones of these) as for kQueue
+  kConvolution,  ///< no cells: the facets of the reduced convolution are arranged; for two bounded sets that lie in the
+                 ///< closures of their interiors, or one such and any other if both are closed; others (and some rare
+                 ///< ones of these) as for kQueue
   kQueue         ///< the sums of cells are united: many at once where few of their faces nearly coincide, and by the
                  ///< queue of [Hachenberger 2009] elsewhere, in bounded memory
 };
@@ -38,7 +39,6 @@ inline constexpr std::array<std::pair<std::string_view, UnionStrategy>, 3> kUnio
 
 struct MinkowskiOptions {
   UnionStrategy strategy = UnionStrategy::kAuto;
-  unsigned threads = 1;  ///< 0: as many as the machine has; the result does not depend on it
   /// Called after each pair of cells, and again and again while sums are united or a convolution is arranged, with the
   /// work that is done in thousandths of all: (done, 1000), always by the calling thread; false stops the sum: it
   /// throws nef::Interrupted. What consists of several sums (an opening) counts anew for each.

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "apps/minkowski/minkowski.h"
 #include "nef/distance/distance.h"
@@ -80,6 +81,8 @@ struct Penetration {
 };
 
 /// From the boundary of A + -B next to the origin: the nearest point of a facet's plane, an edge's line, or a vertex.
+/// If the strategy is kAuto, only what of the convolution comes near the origin is looked at (nearest_outside), but for
+/// a few kinds of sets; else the whole sum is made.
 /// Throws InputError if one is empty, UnsupportedError if one is unbounded.
 Penetration penetration(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options = {},
                         MinkowskiReport* report = nullptr);
@@ -101,6 +104,29 @@ struct Reach {
 /// sets must be bounded (UnsupportedError). Throws InputError if the tool is empty or `from` is not free.
 Reach reach(const Polyhedron& tool, const Polyhedron& part, const std::optional<Rational3>& from = std::nullopt,
             const MinkowskiOptions& options = {}, MinkowskiReport* report = nullptr);
+
+/// How a milling tool comes to the part. It never turns.
+enum class Approach : std::uint8_t {
+  kAnywhere,  ///< from outside, along any path
+  kFromAbove  ///< down the z axis: what is above the tool must be free, too (milling with 3 axes)
+};
+
+/// What a milling tool can make of a block of material with a part in it.
+struct Millable {
+  /// What is left where the tool has cut all that it can: closed, holds the part, and is the part wherever the tool
+  /// reaches.
+  Polyhedron shape;
+  /// What that has beyond the part: closed solids, each connected inside, by descending volume.
+  std::vector<Polyhedron> unreached;
+};
+
+/// The material that a tool can not remove from around a part without cutting into it: what no position of the tool
+/// covers that is free (contact is) and, by free positions, connected to the outside; of a tool from above, no free
+/// position above which all others are free. What is below the part is no obstacle, and not cut from below. Both
+/// sets must be bounded (UnsupportedError), the tool must have an interior (InputError). The cost is that of a
+/// configuration space and of a sum of what is free within the part's box with the tool.
+Millable millable(const Polyhedron& part, const Polyhedron& tool, Approach approach = Approach::kAnywhere,
+                  const MinkowskiOptions& options = {}, MinkowskiReport* report = nullptr);
 
 /// The connected component of a set that holds a point, empty if the set does not hold it; without a point, the
 /// component of what lies beyond all finite points (empty for bounded sets; for sets that leave the finite by several

@@ -3,8 +3,8 @@
 // The program `nef`, with Minkowski sums in its expressions.
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/morphology.h"
+#include "apps/nef/command/run_command.h"
 #include "nef/base/freed_memory.h"
-#include "nef/command/run_command.h"
 
 int main(int argc, char** argv) {
   nef::keep_freed_memory();

@@ -54,11 +54,11 @@ void do_tasks(const Environment& mpi, const TaskPhase& phase, const Watcher& wat
     if (!phase.finished(i)) todo.push_back(i);
   }
   std::size_t so_far = phase.count - todo.size();
-  if (mpi.first()) watcher.progress(phase.name, so_far, phase.count);
+  if (mpi.first()) watcher.monitor.tell_progress(phase.name.c_str(), so_far, phase.count);
   const TaskDone done = [&](std::size_t i, const std::string& result, double seconds) {
     phase.done(i, result, seconds);
     watcher.time(phase.name, i, seconds);
-    watcher.progress(phase.name, ++so_far, phase.count);
+    watcher.monitor.tell_progress(phase.name.c_str(), ++so_far, phase.count);
   };
   const std::vector<TaskFailure> failures = deal_tasks(mpi, todo, phase.task, done, phase.needs);
   if (failures.empty()) return;
@@ -115,12 +115,10 @@ RegionalUnion MeasuredPieces::regions() const {
 
 TiledPolyhedron union_by_regions(const Environment& mpi, const WorkFolder& work, const MeasuredPieces& pieces,
                                  const RegionalUnion& regions, const Tiling& tiling, const Watcher& watcher) {
-  Tiling of_a_task = tiling;
-  of_a_task.threads = 1;
   const auto unite_region = [&](std::size_t region) {
     std::vector<Polyhedron> sets;
     for (const std::uint32_t piece : regions.pieces_of(region)) sets.push_back(pieces.source.set(piece, {}));
-    write_tiles(work / region_name(region), {regions.unite_in(region, std::move(sets), of_a_task, {}), of_a_task});
+    write_tiles(work / region_name(region), {regions.unite_in(region, std::move(sets), tiling, {}), tiling});
     return std::string();
   };
   do_tasks(mpi,
@@ -132,8 +130,8 @@ TiledPolyhedron union_by_regions(const Environment& mpi, const WorkFolder& work,
            watcher);
   if (!mpi.first()) return {};
   std::vector<TileRef> trees(regions.region_count());
-  parallel_for(trees.size(), tiling.threads, {}, [&](std::size_t region, const Monitor&) {
-    trees[region] = read_tiles(work / region_name(region), tiling.store).tree();
+  parallel_for(trees.size(), watcher.monitor, [&](std::size_t region, const Monitor& own) {
+    trees[region] = read_tiles(work / region_name(region), tiling.store, own).tree();
   });
   return {regions.tree(trees), tiling};
 }

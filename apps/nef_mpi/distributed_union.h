@@ -8,6 +8,7 @@
 #include "apps/nef_mpi/task_dealer.h"
 #include "apps/nef_mpi/work_folder.h"
 #include "nef/base/error.h"
+#include "nef/base/monitor.h"
 #include "nef/boolean/union_order.h"
 #include "nef/tiles/import/union_in_tiles.h"
 
@@ -21,8 +22,8 @@ class TasksFailed : public InputError {
 
 /// What rank 0 is told of a run.
 struct Watcher {
-  /// How far it has come.
-  std::function<void(const std::string& phase, std::size_t done, std::size_t total)> progress;
+  /// How far it has come; what rank 0 does alone is on its threads.
+  Monitor monitor;
   /// The seconds of a task.
   std::function<void(const std::string& phase, std::size_t task, double seconds)> time;
 };
@@ -63,8 +64,8 @@ TiledPolyhedron union_by_regions(const Environment& mpi, const WorkFolder& work,
 
 /// Collective. The union of all pieces as one complex, up a tree (nef/boolean/union_order.h): first the pieces of
 /// neighbourhoods, then two results at a time, each a task on one rank, its result in the work folder until it is
-/// used up. Rank 0 does the last union, on up to `threads` threads, and gets the set; elsewhere it is empty.
+/// used up. Rank 0 does the last union and gets the set; elsewhere it is empty.
 Polyhedron union_up_a_tree(const Environment& mpi, const WorkFolder& work, const MeasuredPieces& pieces,
-                           unsigned threads, const Watcher& watcher);
+                           const Watcher& watcher);
 
 }  // namespace nef::mpi

@@ -8,8 +8,8 @@
 
 #include "apps/minkowski/minkowski.h"
 #include "apps/nef_mpi/work_folder.h"
+#include "apps/program/expression/expression.h"
 #include "nef/io/file_bytes.h"
-#include "nef/program/expression/expression.h"
 #include "nef/tiles/storage/tile_folder.h"
 
 namespace nef::mpi {

@@ -17,13 +17,13 @@
 #include "apps/nef_mpi/distributed_sum.h"
 #include "apps/nef_mpi/distributed_union.h"
 #include "apps/nef_mpi/piece_list.h"
+#include "apps/program/run_program.h"
+#include "apps/program/tile_flags.h"
 #include "apps/visual_hull/command/arguments.h"
 #include "apps/visual_hull/command/frames.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/io/file_bytes.h"
-#include "nef/program/run_program.h"
-#include "nef/program/tile_flags.h"
 #include "nef/tiles/storage/tile_folder.h"
 #include "nef/tiles/tile_tree.h"
 
@@ -121,19 +121,17 @@ class Run {
   }
 
   [[nodiscard]] Watcher watcher() {
-    return {.progress = [this](const std::string& phase, std::size_t done,
-                               std::size_t total) { session_.show_phase(phase, done, total); },
-            .time =
-                [this](const std::string& phase, std::size_t task, double seconds) {
-                  times_text_ += phase + "," + std::to_string(task) + "," + std::to_string(seconds) + "\n";
-                }};
+    return {.monitor = session_.monitor.telling(show_),
+            .time = [this](const std::string& phase, std::size_t task, double seconds) {
+              times_text_ += phase + "," + std::to_string(task) + "," + std::to_string(seconds) + "\n";
+            }};
   }
 
   // The beginning of a job's text: all that decides which tasks there are, and what they give, but its inputs.
   [[nodiscard]] std::string job(const std::string& name) const {
     return "nef_mpi " NEF_VERSION " " + name + " " + std::to_string(session_.mesh.strict ? 1 : 0) +
-           std::to_string(session_.mesh.as_surface ? 1 : 0) + nef::name(session_.mesh.crossings) + " " + flags_.tiles +
-           "\n";
+           std::to_string(session_.mesh.as_surface ? 1 : 0) + nef::name(session_.mesh.crossings) + " " +
+           std::to_string(session_.mesh.close_percent) + " " + flags_.tiles + "\n";
   }
 
   [[nodiscard]] std::string sum_job() const {
@@ -156,8 +154,8 @@ class Run {
     if (regions.is_spread() || !flags_.memory.empty()) {
       return union_by_regions(mpi_, work, pieces, regions, tiling, watcher());
     }
-    const Polyhedron whole = union_up_a_tree(mpi_, work, pieces, tiling.threads, watcher());
-    if (names_tile_folder(session_.output)) return TiledPolyhedron(whole, tiling);
+    const Polyhedron whole = union_up_a_tree(mpi_, work, pieces, watcher());
+    if (names_tile_folder(session_.output)) return TiledPolyhedron(whole, tiling, session_.monitor);
     return {tile_leaf(whole, nullptr, true), tiling};
   }
 
@@ -216,13 +214,13 @@ class Run {
 
   int frames() {
     if (hull_.frames.empty()) throw TasksFailed("visual_hull: one hull is one task: give --frames");
-    hull_.quiet = hull_.quiet || !mpi_.first();
+    session_.quiet = session_.quiet || !mpi_.first();
     std::unique_ptr<visual_hull::FrameTasks> tasks;
     std::unique_ptr<visual_hull::FrameRecord> record;
     on_first([&] {
       tasks = std::make_unique<visual_hull::FrameTasks>(hull_);
       record = std::make_unique<visual_hull::FrameRecord>(hull_, *tasks);
-      if (!hull_.quiet) std::cout << tasks->understanding() << "\n";
+      session_.say(tasks->understanding());
     });
     if (!tasks) tasks = std::make_unique<visual_hull::FrameTasks>(hull_);
     do_tasks(mpi_,
@@ -240,12 +238,15 @@ class Run {
 
   const Environment& mpi_;
   Session session_;
+  ProgressFunction show_ = [this](const char* phase, std::size_t done, std::size_t total) {
+    session_.show_phase(phase, done, total);
+  };
   TileFlags flags_;
   std::string list_;
   std::size_t part_ = 500;
   std::string times_;
   std::string times_text_;
-  visual_hull::Arguments hull_;
+  visual_hull::Arguments hull_{session_};
   std::string job_text_;  // on rank 0
   std::function<int()> job_;
 };

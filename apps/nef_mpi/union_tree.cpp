@@ -75,16 +75,16 @@ class UnionTree {
 
   // To the work folder.
   void make(std::size_t node) {
-    Polyhedron set = unite_at(node, 1);
+    Polyhedron set = unite_at(node, {});
     write_file(work_ / result_name(node), native_binary(set));
     last_ = {node, std::move(set)};
   }
 
-  Polyhedron unite_at(std::size_t node, unsigned threads) {
+  Polyhedron unite_at(std::size_t node, const Monitor& monitor) {
     std::vector<Polyhedron> sets;
     for (const std::uint32_t piece : nodes_[node].pieces) sets.push_back(pieces_.source.set(piece, {}));
     for (const std::size_t child : nodes_[node].nodes) sets.push_back(result(child));
-    return unite_all(sets, threads);
+    return unite_all(sets, monitor);
   }
 
   // What has gone into a node is not needed any more.
@@ -121,7 +121,7 @@ class UnionTree {
 }  // namespace
 
 Polyhedron union_up_a_tree(const Environment& mpi, const WorkFolder& work, const MeasuredPieces& pieces,
-                           unsigned threads, const Watcher& watcher) {
+                           const Watcher& watcher) {
   UnionTree tree(work, pieces);
   const std::vector<bool> finished = mpi.first() ? tree.finished() : std::vector<bool>();
   do_tasks(mpi,
@@ -137,7 +137,7 @@ Polyhedron union_up_a_tree(const Environment& mpi, const WorkFolder& work, const
             .done = [&](std::size_t node, const std::string&, double) { tree.remove_children(node); },
             .needs = [&](std::size_t node) { return tree.needs(node); }},
            watcher);
-  return mpi.first() ? tree.unite_at(tree.root(), threads) : Polyhedron();
+  return mpi.first() ? tree.unite_at(tree.root(), watcher.monitor) : Polyhedron();
 }
 
 }  // namespace nef::mpi

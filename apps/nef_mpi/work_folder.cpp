@@ -3,6 +3,7 @@
 
 #include "nef/io/content_hash.h"
 #include "nef/io/file_bytes.h"
+#include "nef/io/mesh/mesh_parts.h"
 #include "nef/tiles/storage/tile_folder.h"
 
 namespace nef::mpi {
@@ -48,7 +49,8 @@ void WorkFolder::remove() const {
 
 std::string file_identity(const std::string& path) {
   // The index of a folder of tiles names each of them by a hash of its bytes.
-  const std::string bytes_in = names_tile_folder(path) ? (fs::path(path) / kTileFolderIndex).string() : path;
+  const std::string bytes_in =
+      names_tile_folder(path) ? (fs::path(path) / kTileFolderIndex).string() : part_path(path).file;
   return path + " " + content_hash_of_file(bytes_in) + "\n";
 }
 

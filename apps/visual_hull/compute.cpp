@@ -14,6 +14,7 @@
 #include "apps/visual_hull/cones/at_least.h"
 #include "apps/visual_hull/cones/bounds.h"
 #include "apps/visual_hull/cones/intersection.h"
+#include "apps/visual_hull/masks/cut_out.h"
 #include "apps/visual_hull/scene/place.h"
 #include "apps/visual_hull/scene/understanding.h"
 #include "apps/visual_hull/stream.h"
@@ -49,7 +50,7 @@ struct Run {
                  const std::function<void(std::size_t, const nef::Monitor& own)>& body) const {
     std::size_t begun = 0;
     std::mutex telling;
-    nef::parallel_for(views.size(), options.threads, monitor, [&](std::size_t i, const nef::Monitor& own) {
+    nef::parallel_for(views.size(), monitor, [&](std::size_t i, const nef::Monitor& own) {
       {
         const std::lock_guard<std::mutex> lock(telling);
         tell(phase, views[i].name, begun++, views.size());
@@ -82,6 +83,26 @@ void check_size_of(const cv::Mat& mask, const View& view, const std::string& wha
                         ": scale the image or the intrinsics");
 }
 
+/// The masks of photographs, in one go, since one rule is looked for that suits all.
+void cut_out_views(const Run& run, const Scene& scene, Result& result, std::vector<cv::Mat>& masks,
+                   const nef::Monitor& monitor) {
+  std::vector<std::filesystem::path> photographs;
+  for (const ViewResult& view : result.views) {
+    if (!view.image.empty()) photographs.push_back(view.image);
+  }
+  if (photographs.empty()) return;
+  run.tell(Phase::kLoad, "masks", 0, photographs.size());
+  CutOuts cut = cut_out(photographs, *run.options.mask, monitor);
+  result.notes.push_back("masks: " + cut.chosen);
+  result.notes.insert(result.notes.end(), cut.notes.begin(), cut.notes.end());
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    if (result.views[i].image.empty()) continue;
+    masks[i] = std::move(cut.masks[next++]);
+    check_size_of(masks[i], scene.views[i], result.views[i].image.string());
+  }
+}
+
 cv::Mat load_mask(const ViewResult& entry, const View& view, const SilhouetteOptions& options) {
   if (entry.image.empty()) return {};
   cv::Mat mask = read_mask(entry.image, view.name, options);
@@ -109,6 +130,7 @@ std::vector<cv::Mat> masks_of(const Run& run, const Scene& scene, const std::fil
     for (std::size_t i = 0; i < masks.size(); ++i) {
       if (!scene.views[i].polygons) result.views[i].image = images[i];
     }
+    if (run.options.mask) return cut_out_views(run, scene, result, masks, watching);
     run.each_view(Phase::kLoad, result.views, watching, [&](std::size_t i, const nef::Monitor&) {
       masks[i] = load_mask(result.views[i], scene.views[i], options);
     });
@@ -116,17 +138,62 @@ std::vector<cv::Mat> masks_of(const Run& run, const Scene& scene, const std::fil
   return masks;
 }
 
-/// Masks -> Silhouettes.
+/// A silhouette as cameras are refined by: along the sides of pixels, and nothing beyond the frame.
+Silhouette outline_of(const View& view, const cv::Mat& mask, SilhouetteOptions options, const nef::Monitor& monitor) {
+  options.simplify = {};
+  options.border = Border::kOutside;
+  return view.polygons ? silhouette_of_polygons(*view.polygons, view.name, options, monitor).region
+                       : silhouette_of_mask(mask, view.distortion, view.name, options, monitor).region;
+}
+
+/// Masks -> Silhouettes; also as they are before anything is simplified, where `outlines` has a place for each view.
 void add_silhouettes(const Run& run, const Scene& scene, std::vector<cv::Mat> masks, const SilhouetteOptions& options,
-                     Result& result, const nef::Monitor& monitor) {
+                     Result& result, std::vector<Silhouette>& outlines, const nef::Monitor& monitor) {
   timed(result.phases, Phase::kContours, monitor, [&](const nef::Monitor& watching) {
     run.each_view(Phase::kContours, result.views, watching, [&](std::size_t i, const nef::Monitor& own) {
       const View& view = scene.views[i];
       result.views[i].silhouette = view.polygons
                                        ? silhouette_of_polygons(*view.polygons, view.name, options, own)
                                        : silhouette_of_mask(masks[i], view.distortion, view.name, options, own);
+      if (!outlines.empty()) outlines[i] = outline_of(view, masks[i], options, own);
       masks[i].release();
     });
+  });
+}
+
+/// The size that all images have. Throws InputError naming a view of another size, or of no image.
+ImageSize size_of_all(const Views& views) {
+  const cv::Size first = views[0].silhouette.image_size;
+  for (const ViewResult& view : views) {
+    const cv::Size& size = view.silhouette.image_size;
+    if (size != first || size.area() == 0) {
+      throw nef::InputError("view " + view.name + ": images of a turntable have one size");
+    }
+  }
+  return {first.width, first.height};
+}
+
+/// Puts the cameras that the silhouettes agree on best in the place of those that were given.
+void refine_views(const Run& run, const Scene& scene, const std::vector<Silhouette>& outlines, Result& result,
+                  Place& place, const nef::Monitor& monitor) {
+  timed(result.phases, Phase::kRefine, monitor, [&](const nef::Monitor& watching) {
+    run.tell(Phase::kRefine, "", 0, 1);
+    std::vector<refine::GivenView> given;
+    for (std::size_t i = 0; i < result.views.size(); ++i) {
+      const ViewSilhouette& s = result.views[i].silhouette;
+      const ImageSize frame = s.cut_by_frame ? ImageSize{s.image_size.width, s.image_size.height} : ImageSize{};
+      given.push_back({scene.views[i].name, result.views[i].camera, &outlines[i], frame, scene.views[i].distortion});
+    }
+    refine::RefineOptions options{result.origin, {}};
+    if (scene.guessed) options.turntable = size_of_all(result.views);
+    result.refinement = refine::refine_cameras(given, options, watching);
+    if (!result.refinement->accepted) return;
+    std::vector<Camera> cameras;
+    for (std::size_t i = 0; i < result.views.size(); ++i) {
+      cameras.push_back(result.refinement->views[i].camera);
+      result.views[i].camera = cameras.back();
+    }
+    place = place_of(cameras);
   });
 }
 
@@ -208,7 +275,7 @@ void compare(const Run& run, const Scene& scene, Result& result, Place& place, R
              const nef::Monitor& monitor) {
   while (true) {
     const std::vector<ComparedView> views = compared(result.views, place);
-    Consistency found = compare_views(views, room.box, run.options.threads, monitor);
+    Consistency found = compare_views(views, room.box, monitor);
     const bool all = views.size() == result.views.size();
     if (!all) return;  // views that keep what they do not see are not judged
     const std::optional<std::size_t> guilty = found.guilty;
@@ -253,7 +320,7 @@ std::optional<nef::Polyhedron> direct(const Run& run, const Views& views, const 
     if (room.enclosing->low[i] <= room.box.low[i] || room.enclosing->high[i] >= room.box.high[i]) return std::nullopt;
   }
   run.tell(Phase::kIntersection, "edges", 0, 1);
-  std::optional<nef::Polyhedron> hull = direct_hull(inputs, *room.enclosing, run.options.threads, monitor);
+  std::optional<nef::Polyhedron> hull = direct_hull(inputs, *room.enclosing, monitor);
   if (hull && nef::counts(*hull).volumes < 2) return std::nullopt;  // empty or flat: the general way finds out why
   return hull;
 }
@@ -272,7 +339,7 @@ nef::Polyhedron hull_of_parts(const Run& run, const Views& views, const Room& ro
   bool needed = !room.found;
   for (const ViewResult& view : views) needed = needed || view.silhouette.background;
   if (needed) all.push_back({box, {}});
-  return intersect_parts(std::move(all), run.options.threads, monitor, [&run](std::size_t done, std::size_t total) {
+  return intersect_parts(std::move(all), monitor, [&run](std::size_t done, std::size_t total) {
     run.tell(Phase::kIntersection, "", done, total);
   });
 }
@@ -293,7 +360,7 @@ Vanished explain_empty(const Run& run, const Views& views, const Place& place, c
   const std::vector<ComparedView> plain = compared(views, place);
   if (run.options.at_least) vanished.reason = "no point lies in so many silhouettes";
   if (plain.size() < views.size() || run.options.at_least) return vanished;
-  for (const auto& set : views_without_common_point(plain, room.box, kMostSets, run.options.threads, monitor)) {
+  for (const auto& set : views_without_common_point(plain, room.box, kMostSets, monitor)) {
     std::vector<std::string> names;
     for (const std::size_t i : set) names.push_back(views[i].name);
     if (vanished.sets.empty()) {
@@ -375,7 +442,7 @@ void verify(const Run& run, Result& result, const nef::Monitor& monitor) {
     // Nothing of it is seen as background for sure.
     const nef::Polyhedron seen = nef::interior(make_cone(view.camera, view.silhouette.region, result.box, own), own);
     Verification check;
-    check.inside = nef::intersect(result.hull, seen, 1, own).is_empty();
+    check.inside = nef::intersect(result.hull, seen, own).is_empty();
     if (!check.inside) check.problem = "a part of the hull is seen as background";
     check.area_known = false;
     view.verification = check;
@@ -385,7 +452,7 @@ void verify(const Run& run, Result& result, const nef::Monitor& monitor) {
 }  // namespace
 
 const char* phase_name(Phase phase) {
-  static constexpr std::array<const char*, kPhaseCount> kNames{"load",  "contours",     "box",    "suspects",
+  static constexpr std::array<const char*, kPhaseCount> kNames{"load",  "contours",     "refine", "box",  "suspects",
                                                                "cones", "intersection", "verify", "write"};
   return kNames[static_cast<std::size_t>(phase)];
 }
@@ -408,6 +475,9 @@ std::vector<Camera> cameras_of(const Scene& scene) {
 }
 
 void check_options(const Scene& scene, const Options& options) {
+  if (scene.guessed && !options.refine) {
+    throw nef::InputError("the cameras of the turntable are not known: they are found by refining them");
+  }
   if (options.at_least && (*options.at_least < 1 || *options.at_least > scene.views.size())) {
     throw nef::InputError("--at-least: from 1 to " + std::to_string(scene.views.size()) + ", the number of views");
   }
@@ -437,6 +507,15 @@ void finish(const Run& run, const Scene& scene, Place place, Result& result, con
   if (run.options.verify && !result.vanished) {
     timed(result.phases, Phase::kVerify, monitor, [&](const nef::Monitor& watching) { verify(run, result, watching); });
   }
+}
+
+/// Masks -> Silhouettes -> Cameras, if they are to be refined -> Hull.
+void hull_of_masks(const Run& run, const Scene& scene, std::vector<cv::Mat> masks, const SilhouetteOptions& options,
+                   Place place, Result& result, const nef::Monitor& monitor) {
+  std::vector<Silhouette> outlines(run.options.refine ? result.views.size() : 0);
+  add_silhouettes(run, scene, std::move(masks), options, result, outlines, monitor);
+  if (run.options.refine) refine_views(run, scene, outlines, result, place, monitor);
+  finish(run, scene, std::move(place), result, monitor);
 }
 
 }  // namespace
@@ -489,8 +568,7 @@ Result HullStream::frame(const std::vector<cv::Mat>& masks, const Progress& prog
       check_size_of(loaded[i], view, "the mask");
     });
   });
-  add_silhouettes(run, s.scene, std::move(loaded), s.silhouettes, result, monitor);
-  finish(run, s.scene, s.place, result, monitor);
+  hull_of_masks(run, s.scene, std::move(loaded), s.silhouettes, s.place, result, monitor);
   return result;
 }
 
@@ -503,9 +581,8 @@ Result HullStream::frame(const std::filesystem::path& folder, const std::optiona
   Result result;
   result.origin = s.silhouettes.origin;
   result.views = s.views;
-  add_silhouettes(run, s.scene, masks_of(run, s.scene, folder, s.silhouettes, result, monitor), s.silhouettes, result,
-                  monitor);
-  finish(run, s.scene, s.place, result, monitor);
+  hull_of_masks(run, s.scene, masks_of(run, s.scene, folder, s.silhouettes, result, monitor), s.silhouettes, s.place,
+                result, monitor);
   return result;
 }
 

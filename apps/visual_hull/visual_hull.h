@@ -17,6 +17,8 @@
 #include <vector>
 
 #include "apps/visual_hull/formats/read_scene.h"
+#include "apps/visual_hull/masks/mask_method.h"
+#include "apps/visual_hull/refine/refine.h"
 #include "apps/visual_hull/scene/images.h"
 #include "apps/visual_hull/silhouette/silhouette.h"
 #include "apps/visual_hull/verify/consistency.h"
@@ -29,8 +31,8 @@
 namespace visual_hull {
 
 /// The steps of the work, in their order.
-enum class Phase : std::uint8_t { kLoad, kContours, kBox, kSuspects, kCones, kIntersection, kVerify, kWrite };
-inline constexpr std::size_t kPhaseCount = 8;
+enum class Phase : std::uint8_t { kLoad, kContours, kRefine, kBox, kSuspects, kCones, kIntersection, kVerify, kWrite };
+inline constexpr std::size_t kPhaseCount = 9;
 const char* phase_name(Phase phase);
 
 /// Time and answers of predicates in one phase.
@@ -54,15 +56,16 @@ enum class Way : std::uint8_t {
 
 struct Options {
   SilhouetteOptions silhouette;                 ///< but for `origin`, which is the scene's
+  std::optional<MaskMethod> mask;               ///< the images are photographs: masks are made of them, no threshold
   std::optional<PixelOrigin> origin;            ///< instead of the scene's
   std::optional<WorldBox> box;                  ///< instead of the scene's
   std::optional<std::filesystem::path> images;  ///< a folder: the i-th image is the i-th view's
   Way way = Way::kBest;
+  bool refine = false;                  ///< correct the cameras by the silhouettes first: Result::refinement
   bool suspects = false;                ///< compare the views: Result::consistency
   bool drop_suspects = false;           ///< leave out the guilty view, compare again, and so on; three views stay
   std::optional<std::size_t> at_least;  ///< the points in at least so many silhouettes, instead of in all
   bool verify = false;
-  unsigned threads = 1;       ///< 0: as many as the machine has; the result is the same
   nef::Monitor monitor = {};  ///< who watches compute; what it refers to must outlive the call
 };
 
@@ -99,11 +102,12 @@ struct Result {
   PixelOrigin origin = PixelOrigin::kCenter;  ///< of the images
   bool box_found = false;                     ///< the box comes from the cones
   std::optional<WorldBox> enclosing;  ///< holds the intersection of all cones in its interior; not always looked for
-  bool direct = false;                ///< the hull was found vertex by vertex
-  std::optional<Consistency> consistency;  ///< of `views`, if they were compared
-  std::vector<Dropped> dropped;            ///< views that were left out
-  std::optional<Vanished> vanished;        ///< set if the hull has no interior
-  nef::Messages notes;                     ///< what a user may want to know about how images were paired with views
+  std::optional<refine::Refinement> refinement;  ///< what became of the cameras, if they were refined
+  bool direct = false;                           ///< the hull was found vertex by vertex
+  std::optional<Consistency> consistency;        ///< of `views`, if they were compared
+  std::vector<Dropped> dropped;                  ///< views that were left out
+  std::optional<Vanished> vanished;              ///< set if the hull has no interior
+  nef::Messages notes;  ///< what a user may want to know about how images were paired with views and masks were made
   PhaseReports phases;
 };
 

@@ -253,7 +253,7 @@ int main(int argc, char** argv) {
   options.thorough = false;
   const Answer answer = problem.solve(options);
   const double processor_all = watch.seconds();
-  std::printf("%d boxes: %s, length %.4f\n", boxes, status_name(answer.status).c_str(),
+  std::printf("%d boxes: %s, length %.4f\n", boxes, status_name(answer.status),
               answer.path ? answer.path->length : 0.0);
   for (const auto& [phase, seconds] : answer.phases) std::printf("  %-20s %.3f s\n", phase.c_str(), seconds);
   std::printf("%zu cells, %zu components, %zu tight passages\n", free.cells().size(), free.components().size(),
@@ -265,8 +265,8 @@ int main(int argc, char** argv) {
   if (argc > 3) return 0;
   watch = {};
   free.build_roadmap();
-  std::printf("a roadmap %.1f ms: %zu leaves, %zu stations\n", 1e3 * watch.seconds(), free.tree().leaves().size(),
-              free.zones().stations().size());
+  std::printf("a roadmap %.1f ms: %zu leaves, %zu portals\n", 1e3 * watch.seconds(), free.tree().leaves().size(),
+              free.roadmap().portals().size());
   time_checks(free);
   for (const char* name : {"RRTConnect", "PRM", "EST"}) share_of_checks(problem, name);
   return 0;

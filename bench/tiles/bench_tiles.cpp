@@ -86,14 +86,14 @@ struct ThereAndBack {
 };
 
 // In turns: a system that gives a process memory for the first time takes longer, whoever asks for it.
-ThereAndBack there_and_back(const Mesh& mesh, int turns, const Tiling& tiling) {
+ThereAndBack there_and_back(const Mesh& mesh, int turns, const Tiling& tiling, const nef::Monitor& monitor) {
   std::array<std::vector<double>, 3> times;
   for (int turn = 0; turn < turns; ++turn) {
     Polyhedron plain;
     TiledPolyhedron in_tiles;
     Polyhedron glued;
     times[0].push_back(seconds_of([&] { plain = from_mesh(mesh); }));
-    times[1].push_back(seconds_of([&] { in_tiles = TiledPolyhedron(plain, tiling); }));
+    times[1].push_back(seconds_of([&] { in_tiles = TiledPolyhedron(plain, tiling, monitor); }));
     times[2].push_back(seconds_of([&] { glued = in_tiles.polyhedron(); }));
   }
   return {median(times[0]), median(times[1]), median(times[2])};
@@ -103,7 +103,9 @@ ThereAndBack there_and_back(const Mesh& mesh, int turns, const Tiling& tiling) {
 class CubesRun {
  public:
   CubesRun(int level, const Tiling& tiling)
-      : source_(level), times_(there_and_back(source_.sphere(), kTurns, tiling)), plain_(from_mesh(source_.sphere())) {
+      : source_(level),
+        times_(there_and_back(source_.sphere(), kTurns, tiling, {})),
+        plain_(from_mesh(source_.sphere())) {
     for (int i = 0; i < 2; ++i) {
       const Polyhedron cube = source_.next(kSize);
       plain_steps_.push_back(seconds_of([&] { static_cast<void>(subtract(plain_, cube)); }));
@@ -165,9 +167,9 @@ void cubes(const std::vector<int>& levels, const Tiling& tiling) {
               *std::max_element(medians.begin(), medians.end()) / *std::min_element(medians.begin(), medians.end()));
 }
 
-void cut_and_glue(int level, int turns, const Tiling& tiling) {
+void cut_and_glue(int level, int turns, const Tiling& tiling, const nef::Monitor& monitor) {
   const CubesOffSphere source(level);
-  const ThereAndBack times = there_and_back(source.sphere(), turns, tiling);
+  const ThereAndBack times = there_and_back(source.sphere(), turns, tiling, monitor);
   std::printf("%9zu triangles: from_mesh %.3f s, cutting %.2f of it, gluing %.2f (medians of %d)\n",
               source.sphere().face_count(), times.build, times.cutting / times.build, times.gluing / times.build,
               turns);
@@ -262,16 +264,15 @@ Polyhedron random_tetrahedron(std::uint32_t number, std::uint32_t count, double 
 }
 
 // Pairs of sets of about the same size, wherever they lie: the order before that of neighbours, to compare with.
-Polyhedron unite_smallest_first(std::vector<Polyhedron> left, unsigned threads) {
+Polyhedron unite_smallest_first(std::vector<Polyhedron> left, const nef::Monitor& monitor) {
   while (left.size() > 1) {
     std::stable_sort(left.begin(), left.end(), [](const Polyhedron& x, const Polyhedron& y) {
       return x.complex().vertex_count() < y.complex().vertex_count();
     });
     const std::size_t pairs = left.size() / 2;
     std::vector<Polyhedron> next(pairs);
-    parallel_for(pairs, threads, {}, [&](std::size_t i, const nef::Monitor& own) {
-      next[i] = unite(left[2 * i], left[2 * i + 1], pairs == 1 ? threads : 1, own);
-    });
+    parallel_for(pairs, monitor,
+                 [&](std::size_t i, const nef::Monitor& own) { next[i] = unite(left[2 * i], left[2 * i + 1], own); });
     next.insert(next.end(), left.begin() + static_cast<std::ptrdiff_t>(2 * pairs), left.end());
     left = std::move(next);
   }
@@ -294,6 +295,7 @@ struct UnionBench {
   bool with_old_order = true;
   bool with_tiles = true;
   int turns = 2;
+  nef::Monitor monitor;
   double size = 1.2;  // of the box of a piece; there is one for each cube of side 1
 };
 
@@ -301,13 +303,13 @@ void unite_tetrahedra(std::uint32_t count, const UnionBench& bench, const Tiling
   const PieceSource made_when_needed{.count = count, .set = [count, &bench](std::uint32_t i, const nef::Monitor&) {
                                        return random_tetrahedron(i, count, bench.size);
                                      }};
-  std::printf("%u tetrahedra, %u threads\n", count, tiling.threads);
+  std::printf("%u tetrahedra, %u threads\n", count, bench.monitor.threads());
   std::size_t vertices = 0;
   std::size_t tiles = 0;
   if (bench.stream) {
     const nef::Stopwatch wall;
     const Stopwatch watch;
-    const TiledPolyhedron united = union_in_tiles(made_when_needed, tiling);
+    const TiledPolyhedron united = union_in_tiles(made_when_needed, tiling, nef::kSetsOfARegion, bench.monitor);
     std::printf("in tiles, pieces made when needed: %.2f s CPU, %.2f s\n", watch.seconds(), wall.seconds());
     vertices = united.vertex_count();
     tiles = united.tile_count();
@@ -317,9 +319,9 @@ void unite_tetrahedra(std::uint32_t count, const UnionBench& bench, const Tiling
     for (int turn = 0; turn < bench.turns; ++turn) {
       Polyhedron by_size;
       if (bench.with_old_order) {
-        by_size = timed("pairs smallest first", [&] { return unite_smallest_first(pieces, tiling.threads); });
+        by_size = timed("pairs smallest first", [&] { return unite_smallest_first(pieces, bench.monitor); });
       }
-      const Polyhedron plain = timed("unite_all", [&] { return unite_all(pieces, tiling.threads); });
+      const Polyhedron plain = timed("unite_all", [&] { return unite_all(pieces, bench.monitor); });
       if (bench.with_old_order) {
         std::printf("files in canonical order: %s\n",
                     native_binary(in_canonical_order(plain)) == native_binary(in_canonical_order(by_size))
@@ -327,7 +329,8 @@ void unite_tetrahedra(std::uint32_t count, const UnionBench& bench, const Tiling
                         : "DIFFERENT");
       }
       if (!bench.with_tiles) continue;
-      const TiledPolyhedron united = timed("region by region", [&] { return TiledPolyhedron(pieces, tiling); });
+      const TiledPolyhedron united =
+          timed("region by region", [&] { return TiledPolyhedron(pieces, tiling, bench.monitor); });
       const Polyhedron glued = timed("glued", [&] { return united.polyhedron(); });
       std::printf("file: %s\n",
                   native_binary(glued) == native_binary(in_canonical_order(plain)) ? "the same" : "DIFFERENT");
@@ -363,7 +366,7 @@ int main(int argc, char** argv) {
       if (words[i] == "--limit" && i + 1 < words.size()) {
         tiling.limit = std::stoul(words[++i]);
       } else if (words[i] == "--threads" && i + 1 < words.size()) {
-        tiling.threads = static_cast<unsigned>(std::stoul(words[++i]));
+        union_bench.monitor = nef::Monitor().on_threads(static_cast<unsigned>(std::stoul(words[++i])));
       } else if (words[i] == "--memory" && i + 1 < words.size()) {
         tiling.store = std::make_shared<nef::TileStore>(".", std::stoull(words[++i]) << 20U);
       } else if (words[i] == "--stream") {
@@ -383,7 +386,8 @@ int main(int argc, char** argv) {
       }
     }
     if (words[0] == "cut") {
-      nef::bench::cut_and_glue(numbers.empty() ? 7 : numbers[0], numbers.size() < 2 ? 5 : numbers[1], tiling);
+      nef::bench::cut_and_glue(numbers.empty() ? 7 : numbers[0], numbers.size() < 2 ? 5 : numbers[1], tiling,
+                               union_bench.monitor);
     } else if (words[0] == "chain") {
       nef::bench::chain(numbers.empty() ? 5 : numbers[0], numbers.size() < 2 ? 1000 : numbers[1], size, every, tiling);
     } else if (words[0] == "union") {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <iostream>
 
+#include "apps/program/report.h"
 #include "apps/visual_hull/command/report.h"
 #include "apps/visual_hull/cones/intersection.h"
 #include "apps/visual_hull/viewing_edges/direct_hull.h"
@@ -17,7 +18,6 @@
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/construct/construct.h"
-#include "nef/program/report.h"
 #ifdef NEF_BENCH_CGAL
 #include "bench/visual_hull/cgal_peer.h"
 #include "nef/base/freed_memory.h"
@@ -132,7 +132,7 @@ void measure(const std::string& name, const Scene& scene, const std::filesystem:
   const bool direct = result.direct && !settings.cones;
   const auto operation = [&] {
     if (direct) {
-      static_cast<void>(direct_hull(inputs, *result.enclosing, 1, {}));
+      static_cast<void>(direct_hull(inputs, *result.enclosing, {}));
     } else {
       static_cast<void>(intersect_parts(parts));
     }

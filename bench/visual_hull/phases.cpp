@@ -9,6 +9,7 @@
 #include <iostream>
 #include <opencv2/core.hpp>
 
+#include "apps/program/report.h"
 #include "apps/visual_hull/command/report.h"
 #include "apps/visual_hull/stream.h"
 #include "bench/visual_hull/voxel_peer.h"
@@ -16,7 +17,6 @@
 #include "nef/base/timing/stopwatch.h"
 #include "nef/export/to_mesh.h"
 #include "nef/io/mesh/mesh_writer.h"
-#include "nef/program/report.h"
 #include "nef/query/measure.h"
 #include "nef/query/measures/approximate_volume.h"
 
@@ -47,8 +47,8 @@ void measure(const std::string& file, const Settings& settings) {
   const Scene scene = read_scene(file);
   Options options;
   options.silhouette.simplify.tolerance = settings.simplify;
-  options.threads = settings.threads;
   options.way = settings.way;
+  options.monitor = nef::Monitor().on_threads(settings.threads);
   std::array<std::vector<double>, kPhaseCount> phases;
   std::vector<double> exports;
   std::vector<double> totals;
@@ -58,7 +58,7 @@ void measure(const std::string& file, const Settings& settings) {
     for (std::size_t i = 0; i < kPhaseCount; ++i) phases[i].push_back(result.phases[i].cpu_seconds);
     exports.push_back(seconds_of([&] {
       nef::MeshExportOptions format;
-      format.keep_polygons = format.only_convex = true;
+      format.keep_polygons = format.only_quads = true;
       static_cast<void>(nef::off_bytes(nef::to_mesh(result.hull, format).mesh));
     }));
   }
@@ -71,7 +71,8 @@ void measure(const std::string& file, const Settings& settings) {
   const HullStream stream(scene, options);
   std::vector<double> frames;
   for (int k = 0; k < settings.repeat; ++k) {
-    frames.push_back(seconds_of([&] { static_cast<void>(nef::to_rounded_mesh(stream.frame(masks).hull)); }));
+    frames.push_back(
+        seconds_of([&] { static_cast<void>(nef::to_rounded_mesh(stream.frame(masks, {}, options.monitor).hull)); }));
   }
   const auto phase = [&](Phase p) { return median(phases[static_cast<std::size_t>(p)]); };
   const std::filesystem::path path(file);

@@ -83,7 +83,7 @@ WorldBox box_of(const std::vector<Seen>& views, const WorldBox& otherwise) {
 Consistency compared(const std::vector<Seen>& views, const WorldBox& box) {
   std::vector<ComparedView> inputs;
   for (const Seen& view : views) inputs.push_back({&view.camera, &view.silhouette});
-  return compare_views(inputs, box, 1, {});
+  return compare_views(inputs, box, {});
 }
 
 cv::Mat shifted(const cv::Mat& mask, double pixels, Random& random) {

@@ -15,6 +15,7 @@
 #include "nef/construct/construct.h"
 #include "nef/geometry/vectors.h"
 #include "nef/io/native/native_format.h"
+#include "nef/query/location_name.h"
 
 namespace nef::fuzz {
 namespace {
@@ -227,18 +228,13 @@ void check_predicates(const Cells& cells, const Polyhedron& set, const Bits& bit
   Case::require(set.is_regular() == (closure_of(cells, inside) == bits), "predicate: is_regular");
 }
 
-const char* name_of(Location::Kind kind) {
-  constexpr std::array<const char*, 4> kNames{"a vertex", "an edge", "a facet", "a volume"};
-  return kNames[static_cast<std::size_t>(kind)];
-}
-
 void check_items(const Case& the_case, const Cells& cells, const Polyhedron& set, const Bits& bits) {
   const PlaneItems items(cells, bits);
   for (std::size_t c = 0; c < cells.size(); ++c) {
     const Location::Kind kind = locate(set, cells.point(c)).kind;
     if (kind == items.kind(c)) continue;
-    Case::require(false, "locations: point(" + show(cells.point(c)) + ") is in " + name_of(kind) + ", want " +
-                             name_of(items.kind(c)));
+    Case::require(false, "locations: point(" + show(cells.point(c)) + ") is in a " + std::string(location_name(kind)) +
+                             ", want a " + std::string(location_name(items.kind(c))));
   }
   const Counts count = counts(set);
   Case::require(count.vertices == items.count(Location::Kind::kVertex), "counts: vertices");

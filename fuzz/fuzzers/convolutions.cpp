@@ -3,9 +3,11 @@
 // Minkowski sums of solids by their reduced convolution: hulls of points on a small grid, united, subtracted and
 // regularized, so concave, of several components, with tunnels, cavities and facets in common planes; then sheared, and
 // one of them by next to nothing, so that doubles can not tell. Half of them keep what marks the steps give to their
-// boundary, points that are missing inside, and passages as narrow as what passes. x is in A + B iff A meets x - B, and
-// the sum of the cells is the same set.
+// boundary, points that are missing inside, and passages as narrow as what passes; some are a block with a tunnel of
+// boxes, open or closed, exactly as wide as the cube that is added. x is in A + B iff A meets x - B, and the sum of the
+// cells is the same set.
 #include "apps/minkowski/minkowski.h"
+#include "apps/minkowski/morphology.h"
 #include "fuzz/fuzzer.h"
 #include "nef/construct/construct.h"
 #include "nef/distance/intersects.h"
@@ -23,6 +25,12 @@ struct Solid {
   Polyhedron set;
   std::string text = "nothing";
 };
+
+Solid without_flat_pieces(Solid solid) {
+  solid.text = "(" + solid.text + " * regularize(" + solid.text + "))";
+  solid.set = intersect(solid.set, regularize(solid.set));
+  return solid;
+}
 
 Solid random_solid(Choices& choices, int steps, int size, bool regular) {
   Solid solid;
@@ -63,9 +71,34 @@ Solid random_solid(Choices& choices, int steps, int size, bool regular) {
     solid.text = "interior(closure" + solid.text + ")";
     solid.set = interior(closure(solid.set));
   }
-  solid.text = "(" + solid.text + " * regularize(" + solid.text + "))";  // no pieces of dimension 2 and less
-  solid.set = intersect(solid.set, regularize(solid.set));
-  return solid;
+  return without_flat_pieces(std::move(solid));
+}
+
+Solid random_box(Choices& choices, const Rational3& low, const Rational3& high) {
+  Solid box = {make_box(low, high), "box("};
+  for (const Rational3* p : {&low, &high}) {
+    for (const Rational& x : *p) box.text += to_string(x) + (p == &high && &x == &p->back() ? ")" : ",");
+  }
+  if (choices.one_in(2)) return box;
+  return {interior(box.set), "interior(" + box.text + ")"};
+}
+
+// A block without a chain of boxes whose cross-sections are unit squares.
+Solid block_with_tunnel(Choices& choices) {
+  Rational3 at{};
+  Solid tunnel;
+  for (int i = choices.between(2, 4); i > 0; --i) {
+    const auto axis = static_cast<std::size_t>(choices.between(0, 2));
+    Rational3 high = at;
+    for (Rational& x : high) x += 1;
+    high[axis] += choices.between(0, 2);
+    const Solid piece = random_box(choices, at, high);
+    tunnel.text = "(" + tunnel.text + " + " + piece.text + ")";
+    tunnel.set = unite(tunnel.set, piece.set);
+    at[axis] = high[axis] - choices.between(0, 1);  // the next one begins beside the end, or in it
+  }
+  const Solid block = random_box(choices, {-2, -2, -2}, {12, 12, 12});
+  return without_flat_pieces({subtract(block.set, tunnel.set), "(" + block.text + " - " + tunnel.text + ")"});
 }
 
 AffineMap random_slight_shear(Choices& choices) {
@@ -84,9 +117,11 @@ AffineMap random_slight_shear(Choices& choices) {
 
 void fuzz_convolutions(const Case& the_case) {
   Choices& choices = the_case.choices();
-  const bool regular = choices.one_in(2);
-  const Solid a = random_solid(choices, choices.between(1, 5), 4, regular);
-  const Solid b = random_solid(choices, choices.between(1, 3), 2, regular);
+  const bool tunnel = choices.one_in(4);
+  const bool regular = !tunnel && choices.one_in(2);
+  const Solid a = tunnel ? block_with_tunnel(choices) : random_solid(choices, choices.between(1, 5), 4, regular);
+  const Solid b =
+      tunnel ? random_box(choices, {-1, -1, -1}, {0, 0, 0}) : random_solid(choices, choices.between(1, 3), 2, regular);
   the_case.tell("a = " + a.text);
   the_case.tell("b = " + b.text);
   if (a.set.is_empty() || b.set.is_empty()) return;
@@ -120,6 +155,17 @@ void fuzz_convolutions(const Case& the_case) {
   }
   options.strategy = minkowski::UnionStrategy::kQueue;
   Case::require(equal(sum, minkowski::minkowski_sum(first, second, options)), "cells: another set");
+  // The way out of an overlap, from facets near the origin and from the whole sum of cells.
+  const Rational3 by = grid_point(choices, 3);
+  const Polyhedron placed = transform(second, AffineMap::translate(by));
+  const minkowski::Penetration found = minkowski::penetration(first, placed);
+  const minkowski::Penetration by_cells = minkowski::penetration(first, placed, options);
+  the_case.count(contact_name(found.kind) == "overlapping" ? "ways out" : "apart");
+  Case::require(found.kind == by_cells.kind, "penetration: another kind");
+  Case::require(found.squared_length == by_cells.squared_length,
+                "penetration: moved by point(" + to_string(by[0]) + "," + to_string(by[1]) + "," + to_string(by[2]) +
+                    "), squared " + to_string(found.squared_length) + ", by cells " +
+                    to_string(by_cells.squared_length));
 }
 
 }  // namespace nef::fuzz

@@ -76,8 +76,6 @@ class DirtyMesh {
     for (std::uint32_t v = first_vertex; v < vertices_.size(); ++v) vertices_[v] = plus(vertices_[v], by);
   }
 
-  static Rational3 plus(const Rational3& a, const Rational3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-
   void add_tetrahedron() {
     const std::uint32_t v = push(0, 0, 0);
     push(2, 0, 0), push(0, 2, 0), push(0, 0, 2);
@@ -265,7 +263,8 @@ class DirtyCase {
   void run() {
     const Made on_one = made(mesh_, {});
     for (const unsigned threads : {2U, 4U}) {
-      Case::require(made(mesh_, {.threads = threads}) == on_one, "threads: another outcome on several");
+      Case::require(made(mesh_, {.monitor = Monitor().on_threads(threads)}) == on_one,
+                    "threads: another outcome on several");
     }
     case_.count(on_one.accepted ? "accepted" : "refused");
     check_report(on_one);
@@ -323,7 +322,8 @@ class DirtyCase {
 
   void check_as_surface() const {
     const Made surface = made(mesh_, {.as_surface = true});
-    Case::require(made(mesh_, {.as_surface = true, .threads = 2}) == surface, "threads: another surface on several");
+    Case::require(made(mesh_, {.as_surface = true, .monitor = Monitor().on_threads(2)}) == surface,
+                  "threads: another surface on several");
     if (surface.accepted) static_cast<void>(case_.valid(surface.set, "as_surface"));
   }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Minkowski sums of machine parts in every strategy: turned, extruded and drilled shapes with coordinates rounded to
-// doubles, so that families of faces are coplanar, parallel or coaxial, or nearly so. Two strategies share neither
-// cells nor facets; x is in A + B iff A meets x - B, which is asked of a Boolean.
+// doubles, so that families of faces are coplanar, parallel or coaxial, or nearly so; or of their sections. Two
+// strategies share neither cells nor facets; x is in A + B iff A meets x - B, which is asked of a Boolean and of an
+// IntersectionQuery.
 #include "apps/minkowski/minkowski.h"
 #include "fuzz/fuzzer.h"
 #include "nef/construct/construct.h"
+#include "nef/distance/intersects.h"
 #include "tests/support/machine_parts.h"
 
 namespace nef::fuzz {
@@ -82,13 +84,26 @@ Part random_part(Choices& choices) {
   return part;
 }
 
+// What a plane across the z axis cuts out of a part.
+Polyhedron section(const Polyhedron& part, const Rational& height) {
+  const std::vector<Rational3> square = {{-50, -50, height}, {50, -50, height}, {50, 50, height}, {-50, 50, height}};
+  return intersect(part, make_polygon(std::vector<std::vector<Rational3>>{square}));
+}
+
 }  // namespace
 
 void fuzz_parts(const Case& the_case) {
   Choices& choices = the_case.choices();
-  const Part a = random_part(choices);
-  const Part b = random_part(choices);
+  Part a = random_part(choices);
+  Part b = random_part(choices);
   const bool negated = choices.one_in(2);
+  if (choices.one_in(3)) {  // rarely in the plane of a face
+    for (Part* part : {&a, &b}) {
+      const Rational height(choices.between(1, 8), 4);
+      part->set = section(part->set, height);
+      part->text += ", section at z = " + to_string(height);
+    }
+  }
   the_case.tell("a = " + a.text);
   the_case.tell("b = " + b.text + (negated ? ", negated" : ""));
   if (a.set.is_empty() || b.set.is_empty()) return;
@@ -106,6 +121,7 @@ void fuzz_parts(const Case& the_case) {
   const Polyhedron sum = sum_by(static_cast<minkowski::UnionStrategy>(one));
   Case::require(equal(sum, sum_by(static_cast<minkowski::UnionStrategy>(other))), "strategies: different sets");
   const Polyhedron turned = minkowski::negate(second);
+  const IntersectionQuery query(a.set, turned);
   const std::size_t vertices = sum.complex().vertex_count();
   for (int k = 0; k < 4; ++k) {
     const auto v = static_cast<std::uint32_t>(choices.below(static_cast<std::uint32_t>(vertices)));
@@ -113,6 +129,8 @@ void fuzz_parts(const Case& the_case) {
     x[static_cast<std::size_t>(k) % 3] += Rational(k % 2) / 64;  // on the boundary and beside it
     const bool meets = !intersect(a.set, transform(turned, AffineMap::translate(x))).is_empty();
     the_case.count("points");
+    Case::require(query.meet(x) == meets, "intersects: " + a.text + " and the other one turned, moved by " +
+                                              to_string(x[0]) + "," + to_string(x[1]) + "," + to_string(x[2]));
     Case::require(contains(sum, x) == meets, "membership: of point(" + to_string(x[0]) + "," + to_string(x[1]) + "," +
                                                  to_string(x[2]) + "), want " + (meets ? "inside" : "outside"));
   }

@@ -131,6 +131,20 @@ void add_rings(Choices& choices, const std::vector<Rational3>& object, TestView&
   }
 }
 
+// The same view with an image that is tiny beside its distance from the corner: doubles tell nothing there.
+void shrink_image(Choices& choices, TestView& view) {
+  const Rational size = Rational(1) / (Integer(3) << choices.between(20, 90));
+  const Planar corner{Rational(choices.between(-3000, 3000)) / 3, Rational(choices.between(-3000, 3000)) / 7};
+  for (std::size_t i = 0; i < 2; ++i) {
+    for (std::size_t k = 0; k < 4; ++k) view.matrix[i][k] = size * view.matrix[i][k] + corner[i] * view.matrix[2][k];
+  }
+  for (PlanarRing& ring : view.rings) {
+    for (Planar& p : ring) {
+      for (std::size_t i = 0; i < 2; ++i) p[i] = size * p[i] + corner[i];
+    }
+  }
+}
+
 visual_hull::Scene scene_of(const std::vector<TestView>& views, int half) {
   visual_hull::Scene scene;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -248,6 +262,7 @@ void fuzz_silhouettes(const Case& the_case) {
   for (std::uint32_t i = half > 0 ? 1 + choices.below(4) : 3 + choices.below(4); i > 0; --i) {
     views.push_back(random_view(choices, is_round ? std::vector{centres[views.size() % centres.size()]} : centres));
     add_rings(choices, object, views.back());
+    if (choices.one_in(4)) shrink_image(choices, views.back());
   }
   tell_scene(the_case, views, half);
 

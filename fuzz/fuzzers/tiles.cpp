@@ -86,20 +86,25 @@ const Polyhedron& far_boxes() {
   return kBoxes;
 }
 
+// How tiles are made, and on how many threads.
+struct HowToTile : nef::Tiling {
+  Monitor monitor;
+};
+
 // The left fold of steps, plain, in tiles and point by point.
 class Fold {
  public:
-  explicit Fold(const nef::Tiling& tiling) : tiled_(Polyhedron(), tiling) {}
+  explicit Fold(const HowToTile& tiling) : tiled_(Polyhedron(), tiling), monitor_(tiling.monitor) {}
 
   void apply(char op, const Fold& other, bool plain_operand) {
-    const auto do_it = [op](const auto& a, const auto& b) {
-      return op == '+'   ? unite(a, b)
-             : op == '*' ? intersect(a, b)
-             : op == '-' ? subtract(a, b)
-                         : symmetric_difference(a, b);
+    const auto do_it = [op](const auto& a, const auto& b, const Monitor& monitor) {
+      return op == '+'   ? unite(a, b, monitor)
+             : op == '*' ? intersect(a, b, monitor)
+             : op == '-' ? subtract(a, b, monitor)
+                         : symmetric_difference(a, b, monitor);
     };
-    tiled_ = plain_operand ? do_it(tiled_, other.plain_) : do_it(tiled_, other.tiled_);
-    plain_ = do_it(plain_, other.plain_);
+    tiled_ = plain_operand ? do_it(tiled_, other.plain_, monitor_) : do_it(tiled_, other.tiled_, monitor_);
+    plain_ = do_it(plain_, other.plain_, {});
     others_.emplace_back(op, other.steps_text(), std::vector<Fold>{other});
   }
   void complement_all() {
@@ -111,15 +116,15 @@ class Fold {
     const auto halves = cut_tree(tiled_.tree(), plane, nef::Tiling{}, {});
     tiled_ = TiledPolyhedron(cut_node(plane, halves[0], halves[1]), tiled_.tiling());
   }
-  static Fold of(const Primitive& primitive, const nef::Tiling& tiling) {
+  static Fold of(const Primitive& primitive, const HowToTile& tiling) {
     Fold result(tiling);
     result.primitive_.push_back(primitive);
     result.plain_ = primitive.make();
-    result.tiled_ = TiledPolyhedron(result.plain_, tiling);
+    result.tiled_ = TiledPolyhedron(result.plain_, tiling, tiling.monitor);
     return result;
   }
   // With much that is far away, as one tile, which steps cut around what they touch.
-  static Fold uncut(const Primitive& primitive, const nef::Tiling& tiling) {
+  static Fold uncut(const Primitive& primitive, const HowToTile& tiling) {
     Fold result = of(primitive, tiling);
     result.plain_ = unite(result.plain_, far_boxes());
     result.tiled_ = TiledPolyhedron(tile_leaf(result.plain_, tiling.store, true), tiling);
@@ -160,6 +165,7 @@ class Fold {
   std::vector<Primitive> primitive_;  // one, or none
   std::vector<Other> others_;
   TiledPolyhedron tiled_;
+  Monitor monitor_;
   Polyhedron plain_;
 };
 
@@ -174,7 +180,7 @@ void random_cuts(const Case& the_case, Fold& fold) {
   }
 }
 
-Fold random_fold(const Case& the_case, const nef::Tiling& tiling, int depth) {
+Fold random_fold(const Case& the_case, const HowToTile& tiling, int depth) {
   Choices& choices = the_case.choices();
   const Primitive first = random_primitive(choices);
   const bool uncut = depth == 0 && choices.one_in(3);
@@ -246,7 +252,7 @@ void check_rays(const Case& the_case, const Fold& fold) {
 }
 
 // What is made of many pieces: the union of primitives, at once and region by region, and the solid of a mesh.
-void check_pieces(const Case& the_case, const nef::Tiling& tiling) {
+void check_pieces(const Case& the_case, const HowToTile& tiling) {
   Choices& choices = the_case.choices();
   std::vector<Primitive> primitives;
   std::vector<Polyhedron> sets;
@@ -259,7 +265,7 @@ void check_pieces(const Case& the_case, const nef::Tiling& tiling) {
   }
   const PieceSource source{.count = static_cast<std::uint32_t>(sets.size()),
                            .set = [&sets](std::uint32_t i, const nef::Monitor&) { return sets[i]; }};
-  const TiledPolyhedron united = union_in_tiles(source, tiling, 1 + choices.below(5));
+  const TiledPolyhedron united = union_in_tiles(source, tiling, 1 + choices.below(5), tiling.monitor);
   for (int i = 0; i < 30; ++i) {
     Rational3 p;
     for (Rational& x : p) {
@@ -274,13 +280,15 @@ void check_pieces(const Case& the_case, const nef::Tiling& tiling) {
   const Polyhedron whole = the_case.valid(unite_all(sets), "the union of all");
   const std::string bytes = native_binary(in_canonical_order(whole));
   Case::require(native_binary(united.polyhedron()) == bytes, "bytes: of a union by regions");
-  Case::require(native_binary(unite_all(sets, 2)) == native_binary(whole), "bytes: of a union on two threads");
+  Case::require(native_binary(unite_all(sets, Monitor().on_threads(2))) == native_binary(whole),
+                "bytes: of a union on two threads");
   for (std::size_t i = sets.size(); i > 1; --i)
     std::swap(sets[i - 1], sets[choices.below(static_cast<std::uint32_t>(i))]);
   Case::require(native_binary(in_canonical_order(unite_all(sets))) == bytes, "bytes: of a union in another order");
   const Polyhedron solid = regularize(whole);
   if (!solid.is_bounded() || solid.is_empty()) return;
-  const TiledPolyhedron pieces = tiles_from_mesh(to_mesh(solid).mesh, {}, tiling, nullptr, 1 + choices.below(12));
+  const TiledPolyhedron pieces =
+      tiles_from_mesh(to_mesh(solid).mesh, {.monitor = tiling.monitor}, tiling, nullptr, 1 + choices.below(12));
   Case::require(native_binary(pieces.polyhedron()) == native_binary(in_canonical_order(solid)),
                 "bytes: of a mesh that came in by pieces");
   the_case.count("meshes by pieces");
@@ -291,7 +299,7 @@ void check_pieces(const Case& the_case, const nef::Tiling& tiling) {
 void fuzz_tiles(const Case& the_case) {
   Choices& choices = the_case.choices();
   const std::size_t limit = choices.below(2) == 0 ? 1024 : 16 + choices.below(40);
-  nef::Tiling tiling{limit, 1 + choices.below(2)};
+  HowToTile tiling{{limit}, Monitor().on_threads(1 + choices.below(2))};
   // Next to no memory: every tile goes to a file and comes back.
   if (choices.one_in(4)) tiling.store = std::make_shared<TileStore>(std::filesystem::temp_directory_path(), 1);
   the_case.tell("at most " + std::to_string(tiling.limit) + " vertices in a tile");

@@ -267,7 +267,9 @@ class MeshCase {
     case_.tell(off_bytes(mesh_, options));
   }
 
-  [[nodiscard]] MeshOptions options() const { return MeshOptions{.threads = 1 + case_.choices().below(2)}; }
+  [[nodiscard]] MeshOptions options() const {
+    return MeshOptions{.monitor = Monitor().on_threads(1 + case_.choices().below(2))};
+  }
 
   // A face left out or turned: every edge of it is run through once too often or too seldom.
   void check_damaged() {

@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Robots and obstacles that are solids by construction, a union of convex pieces each: bumpy balls, hulls of a few
-// points, a box with a window. A path of the wide answer is swept piece by piece; whether there must be one is what the
-// complete way says about T and J.
-#include "apps/planner/path/wide_answer.h"
+// points, a box with a window. A path of the interior answer is swept piece by piece; whether there must be one is what
+// the complete way says about T and J.
+#include "apps/planner/path/partial_answer.h"
 
 #include <algorithm>
 
 #include "apps/planner/path/question.h"
 #include "fuzz/fuzzer.h"
 #include "nef/construct/construct.h"
+#include "nef/geometry/vectors.h"
 #include "nef/mesh/mesh.h"
 
 namespace nef::fuzz {
 namespace {
 
 using Points = std::vector<Rational3>;
-
-Rational3 plus(const Rational3& a, const Rational3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
 
 std::string text_of(const Rational3& p) {
   return "(" + to_string(p[0]) + "," + to_string(p[1]) + "," + to_string(p[2]) + ")";
@@ -211,14 +210,14 @@ class WideCase {
     planner::PathOptions options;
     options.thorough = choices_.below(2) == 1;
     const planner::Answer complete = problem.solve(*scene_.start, *scene_.goal, options);
-    const std::optional<planner::WideAnswer> wide = planner::wide_answer(scene_, options);
+    const std::optional<planner::PartialAnswer> part = planner::interior_answer(scene_, options);
     const bool roomy =
         complete.path && complete.thinness && complete.thinness->piece == 3 && complete.thinness->junction == 3;
-    Case::require(wide.has_value() == roomy, "existence: " + question + ", want " + (roomy ? "a path" : "none"));
+    Case::require(part.has_value() == roomy, "existence: " + question + ", want " + (roomy ? "a path" : "none"));
     const bool proved = complete.status == planner::Answer::Status::kInfeasible;
     case_.count(roomy ? "paths" : complete.path ? "tight ones" : proved ? "proofs" : "invalid");
-    if (!wide) return;
-    check(wide->answer.path->points, question);
+    if (!part) return;
+    check(part->answer.path->points, question);
     check(complete.path->points, "completely " + question);
   }
 

@@ -20,7 +20,7 @@ const nef::fuzz::Format* chosen = nullptr;
 
 [[noreturn]] void usage() {
   std::fputs("fuzz_readers: --format=NAME or --examples=FOLDER, with one of these names:\n", stderr);
-  for (const nef::fuzz::Format& format : nef::fuzz::formats()) std::fprintf(stderr, "  %s\n", format.name.data());
+  for (const nef::fuzz::Format& format : nef::fuzz::formats()) std::fprintf(stderr, "  %s\n", format.name.c_str());
   std::exit(2);
 }
 

@@ -37,7 +37,8 @@ namespace detail {
 /// A broken invariant of the library. On unless NEF_NO_ASSERTIONS is defined; every check behind
 /// it is O(1) beside the work around it.
 #ifdef NEF_NO_ASSERTIONS
-#define NEF_ASSERT(condition) static_cast<void>(0)
+// Never evaluated, but still compiled: what only an assertion reads stays used.
+#define NEF_ASSERT(condition) (false ? static_cast<void>(condition) : static_cast<void>(0))
 #else
 #define NEF_ASSERT(condition) \
   ((condition) ? static_cast<void>(0) : ::nef::detail::assertion_failed(#condition, __FILE__, __LINE__))

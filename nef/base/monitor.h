@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Who watches a computation: stops it, is told how far it has come, and counts its predicates. Whatever may take long
-// is given its monitor as an argument and hands it on to what it calls; there is no state behind it.
+// Who watches a computation: stops it, is told how far it has come, counts its predicates, and says how many threads it
+// may use. Whatever may take long is given its monitor as an argument and hands it on to what it calls; there is no
+// state behind it.
 #pragma once
 
 #include <atomic>
@@ -23,8 +24,15 @@ class StopQuestion;
 /// the caller's.
 class Monitor {
  public:
-  /// Nobody watches.
+  /// Nobody watches; one thread.
   Monitor() = default;
+
+  /// The same with up to so many threads to use; 0: as many as the machine has. No result depends on it.
+  [[nodiscard]] Monitor on_threads(unsigned threads) const {
+    Monitor result = *this;
+    result.threads_ = threads;
+    return result;
+  }
 
   /// The same for who also stops once `stop` has become true, instead of the flag known before; null changes nothing.
   [[nodiscard]] Monitor stopped_by(const std::atomic<bool>* stop) const {
@@ -61,6 +69,9 @@ class Monitor {
     return result;
   }
 
+  /// How many threads to use at most; 0: as many as the machine has.
+  [[nodiscard]] unsigned threads() const { return threads_; }
+
   /// Throws Interrupted if the computation is to stop. Costs about a nanosecond; long loops call it in each round.
   inline void check_interruption() const;
 
@@ -95,6 +106,7 @@ class Monitor {
   StopQuestion* question_ = nullptr;  // behind stop_, if the thread of this monitor is the one to ask it
   const ProgressFunction* progress_ = nullptr;
   PredicateCounts* counts_ = nullptr;
+  unsigned threads_ = 1;
 };
 
 /// A function that is asked now and then whether to stop, by the thread that put the question, and the flag that tells

@@ -33,8 +33,7 @@ std::size_t first_to_intersect(std::span<const Polyhedron> sets) {
 
 }  // namespace
 
-Polyhedron overlay(const Polyhedron& a, const Polyhedron& b, const Function& f, unsigned threads,
-                   const Monitor& monitor) {
+Polyhedron overlay(const Polyhedron& a, const Polyhedron& b, const Function& f, const Monitor& monitor) {
   const Complex& ca = a.complex();
   const Complex& cb = b.complex();
   const LabelFunction table(ca.label_count, cb.label_count, [&f](LabelId x, LabelId y) {
@@ -46,47 +45,45 @@ Polyhedron overlay(const Polyhedron& a, const Polyhedron& b, const Function& f, 
     }
     return mark;
   });
-  // With fewer vertices, starting threads costs more than they save.
-  constexpr std::size_t kWorthThreads = 4000;
-  if (ca.vertex_count() + cb.vertex_count() < kWorthThreads) threads = 1;
   std::optional<Complex> result = overlay_complexes(
       ca, cb, table, [&a]() -> const QueryStructure& { return a.queries(); },
-      [&b]() -> const QueryStructure& { return b.queries(); }, threads, monitor);
+      [&b]() -> const QueryStructure& { return b.queries(); },
+      for_vertices(ca.vertex_count() + cb.vertex_count(), monitor));
   return result ? Polyhedron(std::move(*result)) : a;
 }
 
-Polyhedron unite(const Polyhedron& a, const Polyhedron& b, unsigned threads, const Monitor& monitor) {
+Polyhedron unite(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor) {
   if (a.is_empty() || b.is_everything()) return b;
   if (b.is_empty() || a.is_everything()) return a;
   return overlay(
-      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 || y != 0); }, threads, monitor);
+      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 || y != 0); }, monitor);
 }
 
-Polyhedron intersect(const Polyhedron& a, const Polyhedron& b, unsigned threads, const Monitor& monitor) {
+Polyhedron intersect(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor) {
   if (a.is_empty() || b.is_everything()) return a;
   if (b.is_empty() || a.is_everything()) return b;
   if (a.is_bounded() && b.is_bounded() && apart(a, b)) return {};
   return overlay(
-      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 && y != 0); }, threads, monitor);
+      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 && y != 0); }, monitor);
 }
 
-Polyhedron subtract(const Polyhedron& a, const Polyhedron& b, unsigned threads, const Monitor& monitor) {
+Polyhedron subtract(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor) {
   if (a.is_empty() || b.is_empty()) return a;
   if (a.is_bounded() && b.is_bounded() && apart(a, b)) return a;
   return overlay(
-      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 && y == 0); }, threads, monitor);
+      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 && y == 0); }, monitor);
 }
 
-Polyhedron symmetric_difference(const Polyhedron& a, const Polyhedron& b, unsigned threads, const Monitor& monitor) {
+Polyhedron symmetric_difference(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor) {
   if (a.is_empty()) return b;
   if (b.is_empty()) return a;
   return overlay(
-      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>((x != 0) != (y != 0)); }, threads, monitor);
+      a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>((x != 0) != (y != 0)); }, monitor);
 }
 
 // In rounds: sets of similar size form pairs, and all pairs of a round are intersected at once. The order does not
 // depend on the number of threads, so neither does the order of items in the result.
-Polyhedron intersect_all(std::span<const Polyhedron> sets, unsigned threads, const Monitor& monitor) {
+Polyhedron intersect_all(std::span<const Polyhedron> sets, const Monitor& monitor) {
   if (sets.empty()) return Polyhedron::everything();
   std::vector<Polyhedron> left(sets.begin(), sets.end());
   std::atomic<std::size_t> done{0};
@@ -96,10 +93,10 @@ Polyhedron intersect_all(std::span<const Polyhedron> sets, unsigned threads, con
     });
     const std::size_t pairs = first_to_intersect(left) / 2;
     std::vector<Polyhedron> next(pairs);
-    parallel_for(pairs, threads, monitor, [&](std::size_t i, const Monitor& own) {
+    parallel_for(pairs, monitor, [&](std::size_t i, const Monitor& own) {
       // Many small operations tell of themselves as one; a single one, of what it does.
       const Monitor of_pair = sets.size() > 2 ? own.quiet() : own;
-      next[i] = intersect(left[2 * i], left[2 * i + 1], pairs == 1 ? threads : 1, of_pair);
+      next[i] = intersect(left[2 * i], left[2 * i + 1], of_pair);
       if (sets.size() > 2) own.tell_progress("sets", ++done, sets.size() - 1);
     });
     next.insert(next.end(), left.begin() + static_cast<std::ptrdiff_t>(2 * pairs), left.end());

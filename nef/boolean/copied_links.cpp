@@ -31,7 +31,7 @@ class LinkCopier {
   LinkCopier(const Complex& result, std::span<const VertexRun> runs, const std::array<const Complex*, 2>& operands)
       : c_(result), runs_(runs), operands_(operands) {}
 
-  KnownLinks run(const std::array<std::vector<EdgeContact>, 2>& contacts, unsigned threads, const Monitor& monitor) {
+  KnownLinks run(const std::array<std::vector<EdgeContact>, 2>& contacts, const Monitor& monitor) {
     note_copies();
     for (std::size_t x = 0; x < 2; ++x) note_crossed_edges(x, contacts[x]);
     known_.twin.assign(c_.svertex_count(), HalfedgeId());
@@ -39,7 +39,7 @@ class LinkCopier {
     const VertexId end{c_.vertex_count()};
     std::array<KnownLinks, 2> loose;
     KnownLinks second;
-    parallel_calls(threads, monitor,
+    parallel_calls(monitor,
                    {[&](const Monitor&) { copy_twins(VertexId{0}, half, loose[0]); },
                     [&](const Monitor&) { copy_twins(half, end, loose[1]); },
                     [&](const Monitor&) { copy_facets(0, known_); }, [&](const Monitor&) { copy_facets(1, second); }});
@@ -242,9 +242,8 @@ class LinkCopier {
 
 KnownLinks copied_links(const Complex& result, std::span<const VertexRun> runs,
                         const std::array<const Complex*, 2>& operands,
-                        const std::array<std::vector<EdgeContact>, 2>& contacts, unsigned threads,
-                        const Monitor& monitor) {
-  return LinkCopier(result, runs, operands).run(contacts, threads, monitor);
+                        const std::array<std::vector<EdgeContact>, 2>& contacts, const Monitor& monitor) {
+  return LinkCopier(result, runs, operands).run(contacts, monitor);
 }
 
 }  // namespace nef

@@ -22,10 +22,9 @@ struct VertexRun {
 /// The twins and facets that a result has from its operands. An edge between two copies that the other operand crosses
 /// nowhere keeps its ends, and a facet keeps its cycles if all its corners are copies without crossed edges; whatever
 /// the other operand leaves in its interior is found beside them. `runs` tell of all vertices of the result, in their
-/// order; copies of an operand are in its order. O(n), one pass over the arrays, on up to `threads` threads.
+/// order; copies of an operand are in its order. O(n), one pass over the arrays, on the threads of `monitor`.
 KnownLinks copied_links(const Complex& result, std::span<const VertexRun> runs,
                         const std::array<const Complex*, 2>& operands,
-                        const std::array<std::vector<EdgeContact>, 2>& contacts, unsigned threads,
-                        const Monitor& monitor);
+                        const std::array<std::vector<EdgeContact>, 2>& contacts, const Monitor& monitor);
 
 }  // namespace nef

@@ -23,7 +23,7 @@ const BoxTree& FacetLocator::tree(FacetId facet) const {
   return entry.tree;
 }
 
-Item FacetLocator::locate(FacetId facet, PointId point, const Monitor& monitor) const {
+ItemRef FacetLocator::locate(FacetId facet, PointId point, const Monitor& monitor) const {
   const PlaneTable& planes = tables_.planes;
   const PointTable& points = tables_.points;
   const PlaneId plane = operand_.facet_plane(facet);
@@ -35,27 +35,27 @@ Item FacetLocator::locate(FacetId facet, PointId point, const Monitor& monitor) 
   const auto third = static_cast<std::size_t>(3 - axes.first - axes.second);
   ray.low[third] = -HUGE_VAL;
   ray.high[third] = HUGE_VAL;
-  Item found;
+  ItemRef found;
   bool inside = false;
   for_each_edge(facet, ray, [&](HalfedgeId halfedge) {
-    if (found.kind != Item::Kind::kNone) return;
+    if (found.valid()) return;
     const VertexId a = operand_.source(halfedge);
     const VertexId b = operand_.target(halfedge);
     const int a_height = compare_coordinate(points, operand_.point(a), point, axes.second, monitor);
     const int b_height = compare_coordinate(points, operand_.point(b), point, axes.second, monitor);
     if (a_height * b_height > 0) return;
     if (a_height == 0 && compare_coordinate(points, operand_.point(a), point, axes.first, monitor) == 0) {
-      found = Item(a);
+      found = ItemRef(a);
       return;
     }
     if (b_height == 0 && compare_coordinate(points, operand_.point(b), point, axes.first, monitor) == 0) {
-      found = Item(b);
+      found = ItemRef(b);
       return;
     }
     if (a_height == 0 && b_height == 0) {
       if (compare_coordinate(points, operand_.point(a), point, axes.first, monitor) !=
           compare_coordinate(points, operand_.point(b), point, axes.first, monitor)) {
-        found = Item(operand_.edge(halfedge));
+        found = ItemRef(operand_.edge(halfedge));
       }
       return;
     }
@@ -63,7 +63,7 @@ Item FacetLocator::locate(FacetId facet, PointId point, const Monitor& monitor) 
     const int side = edge.left * side_of_plane(planes, edge.other, points, point, monitor);
     if (side == 0) {
       // On the line, and strictly between the ends in height.
-      if (a_height * b_height < 0) found = Item(operand_.edge(halfedge));
+      if (a_height * b_height < 0) found = ItemRef(operand_.edge(halfedge));
       return;
     }
     // The ray runs a hair above the point: ends at its height count as below. An edge that rises
@@ -73,15 +73,15 @@ Item FacetLocator::locate(FacetId facet, PointId point, const Monitor& monitor) 
     const int left = axes.positive ? side : -side;
     if ((rises && left < 0) || (!rises && left > 0)) inside = !inside;
   });
-  if (found.kind != Item::Kind::kNone || !inside) return found;
+  if (found.valid() || !inside) return found;
   const Facet& f = operand_.complex().facets[facet];
   for (const VertexId v : operand_.complex().isolated_vertices_of(f)) {
     if (compare_coordinate(points, operand_.point(v), point, axes.first, monitor) == 0 &&
         compare_coordinate(points, operand_.point(v), point, axes.second, monitor) == 0) {
-      return Item(v);
+      return ItemRef(v);
     }
   }
-  return Item(facet);
+  return ItemRef(facet);
 }
 
 }  // namespace nef

@@ -21,7 +21,7 @@ class FacetLocator {
 
   /// The item of the (closed) facet that holds a point of its plane: the facet itself, an edge or
   /// a vertex of its boundary or an isolated vertex inside; kNone if the point lies outside.
-  [[nodiscard]] Item locate(FacetId facet, PointId point, const Monitor& monitor) const;
+  [[nodiscard]] ItemRef locate(FacetId facet, PointId point, const Monitor& monitor) const;
 
   /// The boundary edges of the facet (as halfedges of its corners) whose boxes meet `box`.
   template <typename Visit>

@@ -11,6 +11,7 @@
 #include "nef/base/error.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/boolean/facet_locator.h"
+#include "nef/boolean/triangle_filter.h"
 #include "nef/boolean/wide_fans.h"
 #include "nef/geometry/occupancy_grid.h"
 
@@ -19,11 +20,9 @@ namespace {
 
 class IntersectionFinder {
  public:
-  IntersectionFinder(const std::array<Operand, 2>& operands, CommonTables& tables, unsigned threads,
-                     const Monitor& monitor)
+  IntersectionFinder(const std::array<Operand, 2>& operands, CommonTables& tables, const Monitor& monitor)
       : operands_(operands),
         tables_(tables),
-        threads_(threads),
         monitor_(monitor),
         locators_{FacetLocator{operands[0], tables}, FacetLocator{operands[1], tables}} {
     for (std::size_t x = 0; x < 2; ++x) result_.vertex_item[x].resize(operands[x].complex().vertex_count());
@@ -116,13 +115,13 @@ class IntersectionFinder {
     const std::size_t count = operands_[0].complex().facets.size() + operands_[1].complex().facets.size();
     std::array<OccupancyGrid, 2> grids{OccupancyGrid(region, count), OccupancyGrid(region, count)};
     std::array<Candidates, 2> found;
-    parallel_for(2, threads_, monitor_, [&](std::size_t x, const Monitor&) {
+    parallel_for(2, monitor_, [&](std::size_t x, const Monitor&) {
       found[x] = candidates(x, grids[x]);
       for (const auto* cells : {&found[x].facets.cells, &found[x].bare_edges.cells, &found[x].bare_vertices.cells}) {
         for (const CellRange& range : *cells) grids[x].mark(range);
       }
     });
-    parallel_for(2, threads_, monitor_, [&](std::size_t x, const Monitor&) { collect(x, found[x], grids[1 - x]); });
+    parallel_for(2, monitor_, [&](std::size_t x, const Monitor&) { collect(x, found[x], grids[1 - x]); });
   }
 
   // The items that come near the other operand, with a tree of their boxes.
@@ -168,9 +167,9 @@ class IntersectionFinder {
   }
 
   // A vertex of operand x has been found on an item of the other one.
-  void place_vertex(std::size_t x, VertexId vertex, const Item& item) {
+  void place_vertex(std::size_t x, VertexId vertex, const ItemRef& item) {
     result_.vertex_item[x][vertex] = item;
-    if (item.kind == Item::Kind::kVertex) result_.vertex_item[1 - x][item.vertex()] = Item(vertex);
+    if (item.kind == ItemRef::Kind::kVertex) result_.vertex_item[1 - x][item.vertex()] = ItemRef(vertex);
   }
 
   // A vertex or an edge of one operand and a facet of the other that may meet it.
@@ -192,7 +191,7 @@ class IntersectionFinder {
       monitor_.check_interruption();
       monitor_.tell_progress(phase, begin, count);
       const std::size_t end = std::min(count, begin + kAtOnce * kTogether);
-      parallel_for_ranges(end - begin, kTogether, threads_, monitor_,
+      parallel_for_ranges(end - begin, kTogether, monitor_,
                           [&](std::size_t first, std::size_t last, const Monitor& own) {
                             std::vector<Pair<I>>& pairs = found[first / kTogether];
                             pairs.clear();
@@ -212,7 +211,7 @@ class IntersectionFinder {
   void vertices_against_facets(std::size_t x) {
     const Operand& other = operands_[1 - x];
     const std::vector<VertexId>& vertices = near_[x].vertices;
-    const auto placed = [&](VertexId v) { return result_.vertex_item[x][v].kind != Item::Kind::kNone; };
+    const auto placed = [&](VertexId v) { return result_.vertex_item[x][v].valid(); };
     const auto find = [&](std::size_t k, std::vector<Pair<VertexId>>& pairs, const Monitor& monitor) {
       const VertexId v = vertices[k];
       if (placed(v)) return;
@@ -222,8 +221,8 @@ class IntersectionFinder {
     };
     find_and_use<VertexId>(vertices.size(), "vertices in facets", find, [&](const Pair<VertexId>& pair) {
       if (placed(pair.own)) return;
-      const Item item = locators_[1 - x].locate(pair.facet, operands_[x].point(pair.own), monitor_);
-      if (item.kind != Item::Kind::kNone) place_vertex(x, pair.own, item);
+      const ItemRef item = locators_[1 - x].locate(pair.facet, operands_[x].point(pair.own), monitor_);
+      if (item.valid()) place_vertex(x, pair.own, item);
     });
   }
 
@@ -235,19 +234,19 @@ class IntersectionFinder {
       const PointId p = operands_[x].point(v);
       const Box box = operands_[x].vertex_box(v);
       targets.bare_vertex_tree.for_each_overlap(box, [&](std::uint32_t i) {
-        if (result_.vertex_item[x][v].kind != Item::Kind::kNone) return;
+        if (result_.vertex_item[x][v].valid()) return;
         const VertexId w = targets.bare_vertices[i];
-        if (compare_lexicographic(tables_.points, p, other.point(w), monitor_) == 0) place_vertex(x, v, Item(w));
+        if (compare_lexicographic(tables_.points, p, other.point(w), monitor_) == 0) place_vertex(x, v, ItemRef(w));
       });
       targets.bare_edge_tree.for_each_overlap(box, [&](std::uint32_t i) {
-        if (result_.vertex_item[x][v].kind != Item::Kind::kNone) return;
+        if (result_.vertex_item[x][v].valid()) return;
         const HalfedgeId e = targets.bare_edges[i];
         if (side(other.svertex(e).p, p, monitor_) != 0 || side(other.svertex(e).q, p, monitor_) != 0) return;
         const int from = compare_lexicographic(tables_.points, p, other.point(other.source(e)), monitor_);
         const int to = compare_lexicographic(tables_.points, p, other.point(other.target(e)), monitor_);
-        if (from * to < 0) place_vertex(x, v, Item(e));
-        if (from == 0) place_vertex(x, v, Item(other.source(e)));
-        if (to == 0) place_vertex(x, v, Item(other.target(e)));
+        if (from * to < 0) place_vertex(x, v, ItemRef(e));
+        if (from == 0) place_vertex(x, v, ItemRef(other.source(e)));
+        if (to == 0) place_vertex(x, v, ItemRef(other.target(e)));
       });
     }
   }
@@ -264,7 +263,9 @@ class IntersectionFinder {
         const PlaneId plane = other.facet_plane(facet);
         const int side_a = side(plane, a, monitor);
         const int side_b = side(plane, b, monitor);
-        if (side_a * side_b < 0 || (side_a == 0 && side_b == 0)) pairs.push_back({e, facet});
+        const bool may_meet =
+            side_a * side_b < 0 ? may_pierce(1 - x, a, b, facet, monitor) : side_a == 0 && side_b == 0;
+        if (may_meet) pairs.push_back({e, facet});
       });
     };
     find_and_use<HalfedgeId>(edges.size(), "edges through facets", find, [&](const Pair<HalfedgeId>& pair) {
@@ -287,8 +288,8 @@ class IntersectionFinder {
     std::vector<VertexId> end_at;
     for (const VertexId v : vertices) {
       ends.push_back(tables_.points.approximate(operands_[x].point(v)));
-      const Item& item = result_.vertex_item[x][v];
-      end_at.push_back(item.kind == Item::Kind::kVertex ? item.vertex() : VertexId());
+      const ItemRef& item = result_.vertex_item[x][v];
+      end_at.push_back(item.kind == ItemRef::Kind::kVertex ? item.vertex() : VertexId());
     }
     std::vector<std::uint32_t> places;
     near_[1 - x].wide_fans.find(ends, end_at, box, places);
@@ -319,16 +320,27 @@ class IntersectionFinder {
     visit_wide(x, vertices, own.edge_box(e), visit);
   }
 
+  // False only if the segment from a to b, which passes through the plane of a facet of operand x, misses the facet.
+  [[nodiscard]] bool may_pierce(std::size_t x, PointId a, PointId b, FacetId facet, const Monitor& monitor) const {
+    const Operand& operand = operands_[x];
+    const std::span<const SHalfedgeId> corners = operand.complex().corners_of(facet);
+    if (corners.size() != 3) return true;
+    const auto point = [&](std::size_t i) { return operand.point(operand.complex().shalfedge_vertex(corners[i])); };
+    if (!surely_misses_triangle(tables_.points, a, b, {point(0), point(1), point(2)})) return true;
+    monitor.count_filter();
+    return false;
+  }
+
   // Edge e of operand x passes through the plane of a facet of the other.
   void pierce(std::size_t x, HalfedgeId e, FacetId facet) {
     const SVertex line = operands_[x].svertex(e);
     const std::optional<PointId> point =
         tables_.points.push_intersection(tables_.planes, line.p, line.q, operands_[1 - x].facet_plane(facet));
     NEF_ASSERT(point.has_value());
-    const Item item = locators_[1 - x].locate(facet, *point, monitor_);
-    const bool used = item.kind == Item::Kind::kFacet || item.kind == Item::Kind::kEdge;
+    const ItemRef item = locators_[1 - x].locate(facet, *point, monitor_);
+    const bool used = item.kind == ItemRef::Kind::kFacet || item.kind == ItemRef::Kind::kEdge;
     if (!used || !add_crossing(x, e, item, *point)) tables_.points.pop();
-    if (item.kind == Item::Kind::kVertex) place_vertex(1 - x, item.vertex(), Item(e));
+    if (item.kind == ItemRef::Kind::kVertex) place_vertex(1 - x, item.vertex(), ItemRef(e));
   }
 
   // Both edges lie in `plane`; they cross iff each has the ends of the other strictly on both
@@ -342,7 +354,7 @@ class IntersectionFinder {
     if (!parts(through_e, other.point(other.source(f)), other.point(other.target(f)))) return;
     const std::optional<PointId> point = tables_.points.push_intersection(tables_.planes, plane, through_e, through_f);
     NEF_ASSERT(point.has_value());
-    if (!add_crossing(x, e, Item(f), *point)) tables_.points.pop();
+    if (!add_crossing(x, e, ItemRef(f), *point)) tables_.points.pop();
   }
 
   // True if the points lie strictly on both sides of the plane.
@@ -350,16 +362,16 @@ class IntersectionFinder {
     return side(plane, a, monitor_) * side(plane, b, monitor_) < 0;
   }
 
-  bool add_crossing(std::size_t x, HalfedgeId e, const Item& item, PointId point) {
+  bool add_crossing(std::size_t x, HalfedgeId e, const ItemRef& item, PointId point) {
     Crossing crossing;
     crossing.point = point;
-    crossing.item[x] = Item(e);
+    crossing.item[x] = ItemRef(e);
     crossing.item[1 - x] = item;
-    if (item.kind == Item::Kind::kEdge) {
+    if (item.kind == ItemRef::Kind::kEdge) {
       // Found once for every facet around either edge.
       const std::uint64_t key = static_cast<std::uint64_t>(crossing.item[0].index) << 32U | crossing.item[1].index;
       if (!edge_pairs_.insert(key).second) return false;
-      result_.contacts[1 - x].push_back({item.edge(), point, crossing.item[x]});
+      result_.contacts[1 - x].push_back({item.halfedge(), point, crossing.item[x]});
     }
     result_.contacts[x].push_back({e, point, item});
     result_.crossings.push_back(crossing);
@@ -385,7 +397,7 @@ class IntersectionFinder {
           if (!point) continue;
           const bool on_both = side(other.p, *point, monitor_) == 0 && side(other.q, *point, monitor_) == 0 &&
                                inside(a, e, *point) && inside(b, f, *point);
-          if (!on_both || !add_crossing(0, e, Item(f), *point)) tables_.points.pop();
+          if (!on_both || !add_crossing(0, e, ItemRef(f), *point)) tables_.points.pop();
           break;
         }
       }
@@ -400,15 +412,14 @@ class IntersectionFinder {
 
   void note_vertices_on_edges(std::size_t x) {
     for (const VertexId v : near_[x].vertices) {
-      const Item& item = result_.vertex_item[x][v];
-      if (item.kind != Item::Kind::kEdge) continue;
-      result_.contacts[1 - x].push_back({item.edge(), operands_[x].point(v), Item(v)});
+      const ItemRef& item = result_.vertex_item[x][v];
+      if (item.kind != ItemRef::Kind::kEdge) continue;
+      result_.contacts[1 - x].push_back({item.halfedge(), operands_[x].point(v), ItemRef(v)});
     }
   }
 
   const std::array<Operand, 2>& operands_;
   CommonTables& tables_;
-  unsigned threads_;
   Monitor monitor_;
   std::array<FacetLocator, 2> locators_;
   std::array<Near, 2> near_;
@@ -418,9 +429,9 @@ class IntersectionFinder {
 
 }  // namespace
 
-Intersections intersect_boundaries(const std::array<Operand, 2>& operands, CommonTables& tables, unsigned threads,
+Intersections intersect_boundaries(const std::array<Operand, 2>& operands, CommonTables& tables,
                                    const Monitor& monitor) {
-  return IntersectionFinder(operands, tables, threads, monitor).run();
+  return IntersectionFinder(operands, tables, monitor).run();
 }
 
 }  // namespace nef

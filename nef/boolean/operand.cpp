@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/boolean/operand.h"
 
+#include <algorithm>
+
 #include "nef/base/error.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/complex/item_boxes.h"
@@ -9,14 +11,14 @@
 
 namespace nef {
 
-CommonTables::CommonTables(const Complex& first, const Complex& second, unsigned threads, const Monitor& monitor) {
-  const auto find_planes = [&](const Monitor& own) {
-    rows_of_second = first.planes.rows_of(second.planes, threads, own);
-  };
+CommonTables::CommonTables(const Complex& first, const Complex& second, const Monitor& monitor) {
+  const auto find_planes = [&](const Monitor& own) { rows_of_second = first.planes.rows_of(second.planes, own); };
   const auto copy = [&](const Monitor&) {
-    planes.reserve(first.planes.size() + second.planes.size());
+    planes.reserve(first.planes.size() + second.planes.size(),
+                   std::max(first.planes.limbs_per_plane(), second.planes.limbs_per_plane()));
     planes.append_new(first.planes, 0, first.planes.size());
-    points.reserve(first.points.size() + second.points.size());
+    points.reserve(first.points.size() + second.points.size(),
+                   std::max(first.points.limbs_per_point(), second.points.limbs_per_point()));
     points.append(first.points, 0, first.points.size());
     points.append(second.points, 0, second.points.size());
   };
@@ -28,7 +30,7 @@ CommonTables::CommonTables(const Complex& first, const Complex& second, unsigned
       }
     }
   };
-  parallel_calls(threads, monitor, {find_planes, copy, find_bounds});
+  parallel_calls(monitor, {find_planes, copy, find_bounds});
   planes.append_missing(second.planes, rows_of_second);
 }
 
@@ -49,35 +51,18 @@ Box Operand::edge_box(HalfedgeId halfedge) const { return nef::edge_box(*complex
 
 Box Operand::facet_box(FacetId facet) const { return nef::facet_box(*complex_, complex_->facets[facet]); }
 
-SphereMapView Operand::pyramid(const Item& item, LabelId label, SphereMapBuffer& scratch) const {
-  switch (item.kind) {
-    case Item::Kind::kVertex: {
-      const SphereMapView map = complex_->sphere_map(item.vertex());
-      if (rows_.empty()) return map;
-      scratch.assign(map);
-      rename(scratch);
-      break;
-    }
-    case Item::Kind::kEdge: {
-      const VertexId vertex = source(item.edge());
-      edge_pyramid(complex_->sphere_map(vertex), complex_->halfedges(vertex).position(item.edge()), scratch);
-      rename(scratch);
-      break;
-    }
-    case Item::Kind::kFacet: {
-      const Facet& facet = complex_->facets[item.facet()];
-      scratch.assign_circle(plane(facet.plane), facet.mark, complex_->volumes[facet.volume_above].mark,
-                            complex_->volumes[facet.volume_below].mark);
-      break;
-    }
-    case Item::Kind::kNone:
-      scratch.assign_trivial(label);
-      break;
+SphereMapView Operand::pyramid(const ItemRef& item, LabelId label, SphereMapBuffer& scratch) const {
+  if (!item.valid()) {
+    scratch.assign_trivial(label);
+    return scratch.view();
   }
+  if (item.kind == ItemRef::Kind::kVertex && rows_.empty()) return complex_->sphere_map(item.vertex());
+  pyramid_of(*complex_, item, scratch);
+  rename(scratch);
   return scratch.view();
 }
 
-LabelId Operand::volume_mark(const PlaneTable& planes, const Item& item, const Direction& direction,
+LabelId Operand::volume_mark(const PlaneTable& planes, const ItemRef& item, const Direction& direction,
                              const Monitor& monitor) const {
   SphereMapBuffer scratch;
   const SphereMapView map = pyramid(item, 0, scratch);

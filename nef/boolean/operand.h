@@ -11,6 +11,7 @@
 #include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
 #include "nef/complex/facet_plane.h"
+#include "nef/complex/item_ref.h"
 #include "nef/geometry/box_tree.h"
 
 namespace nef {
@@ -23,26 +24,8 @@ struct CommonTables {
   std::vector<std::uint32_t> rows_of_second;  ///< the row of each plane of the second operand
   std::array<Box, 2> bounds;                  ///< of the vertices of each operand
 
-  /// O(planes and points), on up to `threads` threads.
-  CommonTables(const Complex& first, const Complex& second, unsigned threads, const Monitor& monitor);
-};
-
-/// What item of a complex a point lies on. A halfedge stands for its edge: the smaller of the two.
-struct Item {
-  enum class Kind : std::uint8_t { kNone, kVertex, kEdge, kFacet };
-  Kind kind = Kind::kNone;
-  std::uint32_t index = 0;
-
-  Item() = default;
-  Item(Kind of, std::uint32_t number) : kind(of), index(number) {}
-  explicit Item(VertexId vertex) : kind(Kind::kVertex), index(vertex.index()) {}
-  explicit Item(HalfedgeId edge) : kind(Kind::kEdge), index(edge.index()) {}
-  explicit Item(FacetId facet) : kind(Kind::kFacet), index(facet.index()) {}
-
-  [[nodiscard]] VertexId vertex() const { return VertexId{index}; }
-  [[nodiscard]] HalfedgeId edge() const { return HalfedgeId{index}; }
-  [[nodiscard]] FacetId facet() const { return FacetId{index}; }
-  bool operator==(const Item&) const = default;
+  /// O(planes and points), on the threads of `monitor`.
+  CommonTables(const Complex& first, const Complex& second, const Monitor& monitor);
 };
 
 class Operand {
@@ -83,11 +66,11 @@ class Operand {
   }
 
   /// The local pyramid at an item; the whole-space one of `label` for no item. `scratch` may hold it.
-  SphereMapView pyramid(const Item& item, LabelId label, SphereMapBuffer& scratch) const;
+  SphereMapView pyramid(const ItemRef& item, LabelId label, SphereMapBuffer& scratch) const;
 
   /// The mark of the volume that `direction` leads into from a point on `item`. It must not lead
   /// along a lower-dimensional item.
-  [[nodiscard]] LabelId volume_mark(const PlaneTable& planes, const Item& item, const Direction& direction,
+  [[nodiscard]] LabelId volume_mark(const PlaneTable& planes, const ItemRef& item, const Direction& direction,
                                     const Monitor& monitor) const;
 
  private:

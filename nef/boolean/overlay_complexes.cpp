@@ -19,11 +19,10 @@ namespace {
 
 class ComplexOverlay {
  public:
-  ComplexOverlay(const Complex& a, const Complex& b, const LabelFunction& f, unsigned threads, const Monitor& monitor)
+  ComplexOverlay(const Complex& a, const Complex& b, const LabelFunction& f, const Monitor& monitor)
       : f_(f),
-        threads_(threads),
         monitor_(monitor),
-        tables_(a, b, threads_, monitor_),
+        tables_(a, b, monitor_),
         operands_{Operand(a, tables_, 0), Operand(b, tables_, 1)},
         result_(operands_, tables_) {}
 
@@ -32,7 +31,7 @@ class ComplexOverlay {
                              const std::function<const QueryStructure&()>& queries_b) {
     // Whoever listens hears of every overlay, also of one where no boundaries meet and nothing is made.
     monitor_.tell_progress("edges through facets", 0, 0);
-    Intersections found = intersect_boundaries(operands_, tables_, threads_, monitor_);
+    Intersections found = intersect_boundaries(operands_, tables_, monitor_);
     collect(found, queries_a, queries_b);
     return finished(std::move(found));
   }
@@ -45,14 +44,14 @@ class ComplexOverlay {
     const auto find_marks = [&](std::size_t x, const Monitor& own) {
       marks[x] = marks_of_untouched(operands_, x, tables_, found, x == 0 ? queries_b : queries_a, own);
     };
-    parallel_calls(threads_, monitor_,
+    parallel_calls(monitor_,
                    {[&](const Monitor& own) { find_marks(0, own); }, [&](const Monitor& own) { find_marks(1, own); }});
     std::vector<Meeting> meetings;
     const auto note_meeting = [&](const Meeting& meeting) { meetings.push_back(meeting); };
     for_each_vertex(
         found, [](std::size_t, VertexId) {}, note_meeting);
     for (const Crossing& crossing : found.crossings) note_meeting({crossing.point, crossing.item});
-    overlaid_.emplace(operands_, tables_, f_, meetings, threads_, monitor_);
+    overlaid_.emplace(operands_, tables_, f_, meetings, monitor_);
     std::size_t next = 0;
     const auto push_next = [&](const Meeting&) { result_.add((*overlaid_)[next++]); };
     for_each_vertex(
@@ -66,13 +65,13 @@ class ComplexOverlay {
   template <typename Untouched, typename Met>
   void for_each_vertex(const Intersections& found, const Untouched& untouched, const Met& met) const {
     for (std::size_t x = 0; x < 2; ++x) {
-      const IndexedVector<VertexId, Item>& items = found.vertex_item[x];
+      const IndexedVector<VertexId, ItemRef>& items = found.vertex_item[x];
       for (const VertexId v : items.ids()) {
-        if (items[v].kind == Item::Kind::kNone) {
+        if (!items[v].valid()) {
           untouched(x, v);
-        } else if (x == 0 || items[v].kind != Item::Kind::kVertex) {
-          std::array<Item, 2> pair;
-          pair[x] = Item(v);
+        } else if (x == 0 || items[v].kind != ItemRef::Kind::kVertex) {
+          std::array<ItemRef, 2> pair;
+          pair[x] = ItemRef(v);
           pair[1 - x] = items[v];
           met({operands_[x].point(v), pair});
         }
@@ -90,15 +89,15 @@ class ComplexOverlay {
     found.vertex_item = {};
     found.crossings = {};
     ComplexBuilder builder(tables_.planes, monitor_);
-    result_.write(tables_.planes, builder, threads_, monitor_);
+    result_.write(tables_.planes, builder, monitor_);
     overlaid_.reset();
-    if ((a.has_box() || b.has_box()) && builder.has_idle_box()) return builder.finish(outer, threads_);
+    if ((a.has_box() || b.has_box()) && builder.has_idle_box()) return builder.finish(outer);
     std::optional<KnownLinks> known;
     if (kFastPaths && result_.is_mostly_copies()) {
-      known = copied_links(builder.so_far(), result_.origins(), {&a, &b}, found.contacts, threads_, monitor_);
+      known = copied_links(builder.so_far(), result_.origins(), {&a, &b}, found.contacts, monitor_);
     }
     found = {};
-    return known ? builder.finish(outer, *std::move(known), threads_) : builder.finish(outer, threads_);
+    return known ? builder.finish(outer, *std::move(known)) : builder.finish(outer);
   }
 
   // What f does to the marks of operand x beside one mark of the other.
@@ -156,8 +155,8 @@ class ComplexOverlay {
         return;
       case Effect::kGeneral: {
         if (push_if_injective(x, v, other)) return;
-        std::array<Item, 2> items;
-        items[x] = Item(v);
+        std::array<ItemRef, 2> items;
+        items[x] = ItemRef(v);
         const SphereMapBuffer& map = overlay_.at(items, other);
         if (is_vertex(tables_.planes, map.view(), monitor_)) result_.add(operands_[x].point(v), map.view());
         return;
@@ -168,7 +167,7 @@ class ComplexOverlay {
   // Copies a vertex if f keeps apart all the marks around it: then nothing simplifies.
   bool push_if_injective(std::size_t x, VertexId v, LabelId other) {
     const auto image = [&](LabelId mark) { return x == 0 ? f_(mark, other) : f_(other, mark); };
-    const SphereMapView map = operands_[x].pyramid(Item(v), other, scratch_);
+    const SphereMapView map = operands_[x].pyramid(ItemRef(v), other, scratch_);
     marks_.assign(1, map.mark);
     for (const SVertex& item : map.svertices) marks_.push_back(item.mark);
     for (const SHalfedge& item : map.shalfedges) marks_.push_back(item.mark);
@@ -203,7 +202,6 @@ class ComplexOverlay {
   }
 
   const LabelFunction& f_;
-  unsigned threads_;
   Monitor monitor_;
   CommonTables tables_;
   std::array<Operand, 2> operands_;
@@ -220,9 +218,9 @@ class ComplexOverlay {
 
 std::optional<Complex> overlay_complexes(const Complex& a, const Complex& b, const LabelFunction& f,
                                          const std::function<const QueryStructure&()>& queries_a,
-                                         const std::function<const QueryStructure&()>& queries_b, unsigned threads,
+                                         const std::function<const QueryStructure&()>& queries_b,
                                          const Monitor& monitor) {
-  return ComplexOverlay(a, b, f, threads, monitor).run(queries_a, queries_b);
+  return ComplexOverlay(a, b, f, monitor).run(queries_a, queries_b);
 }
 
 }  // namespace nef

@@ -7,7 +7,7 @@
 
 namespace nef {
 
-const SphereMapBuffer& PyramidOverlay::at(const std::array<Item, 2>& items, LabelId label) {
+const SphereMapBuffer& PyramidOverlay::at(const std::array<ItemRef, 2>& items, LabelId label) {
   const SphereMapView a = operands_[0].pyramid(items[0], label, scratch_[0]);
   const SphereMapView b = operands_[1].pyramid(items[1], label, scratch_[1]);
   overlay_.overlay(tables_.planes, a, b, f_, out_, monitor_);
@@ -15,8 +15,7 @@ const SphereMapBuffer& PyramidOverlay::at(const std::array<Item, 2>& items, Labe
 }
 
 OverlaidMeetings::OverlaidMeetings(const std::array<Operand, 2>& operands, const CommonTables& tables,
-                                   const LabelFunction& f, std::span<const Meeting> meetings, unsigned threads,
-                                   const Monitor& monitor)
+                                   const LabelFunction& f, std::span<const Meeting> meetings, const Monitor& monitor)
     : made_((meetings.size() + kTogether - 1) / kTogether), vertex_(meetings.size()) {
   const auto make = [&](std::size_t part, const Monitor& own) {
     PyramidOverlay overlay(operands, tables, f, own);
@@ -35,7 +34,7 @@ OverlaidMeetings::OverlaidMeetings(const std::array<Operand, 2>& operands, const
   constexpr std::size_t kAtOnce = 16;
   for (std::size_t begin = 0; begin < made_.size(); begin += kAtOnce) {
     monitor.tell_progress("sphere maps", begin * kTogether, meetings.size());
-    parallel_for(std::min(kAtOnce, made_.size() - begin), threads, monitor,
+    parallel_for(std::min(kAtOnce, made_.size() - begin), monitor,
                  [&](std::size_t i, const Monitor& own) { make(begin + i, own); });
   }
 }

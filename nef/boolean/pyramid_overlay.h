@@ -21,7 +21,7 @@ class PyramidOverlay {
 
   /// The pyramids at two items, overlaid and simplified; `label` is the mark around the point in an operand that has no
   /// item there. Valid until the next call.
-  const SphereMapBuffer& at(const std::array<Item, 2>& items, LabelId label);
+  const SphereMapBuffer& at(const std::array<ItemRef, 2>& items, LabelId label);
 
  private:
   const std::array<Operand, 2>& operands_;
@@ -36,7 +36,7 @@ class PyramidOverlay {
 /// A point that lies on an item of each operand.
 struct Meeting {
   PointId point;
-  std::array<Item, 2> items;
+  std::array<ItemRef, 2> items;
 };
 
 /// A vertex among others that have no links yet.
@@ -48,9 +48,9 @@ struct VertexOf {
 /// What the overlays at many points have made: the vertices of a result where its operands meet.
 class OverlaidMeetings {
  public:
-  /// Makes the overlays on up to `threads` threads, and tells of its progress.
+  /// Makes the overlays on the threads of `monitor`, and tells of its progress.
   OverlaidMeetings(const std::array<Operand, 2>& operands, const CommonTables& tables, const LabelFunction& f,
-                   std::span<const Meeting> meetings, unsigned threads, const Monitor& monitor);
+                   std::span<const Meeting> meetings, const Monitor& monitor);
 
   /// The vertex at meeting k, if the point is one; its planes have common names. Belongs to this object.
   [[nodiscard]] VertexOf operator[](std::size_t k) const;

@@ -59,7 +59,7 @@ void ResultAssembly::reserve(ComplexBuilder& result) const {
     vertices += run.vertices.count;
     size.advance(run.from->vertices[run.vertices.first], run.from->vertices[run.vertices.first + run.vertices.count]);
   }
-  result.reserve(vertices, size);
+  result.reserve(vertices, size, operands_[0].complex().points.limbs_per_point());
 }
 
 // By common name; not zero for those that are used.
@@ -84,11 +84,10 @@ std::vector<std::uint8_t> ResultAssembly::used_planes(std::size_t planes) const 
 }
 
 ResultAssembly::FinalRows ResultAssembly::final_rows(std::size_t planes) const {
-  const std::vector<std::uint8_t> used = used_planes(planes);
+  std::vector<std::uint8_t> used = used_planes(planes);
   const std::vector<std::uint32_t>& common = tables_.rows_of_second;
   FinalRows result;
-  result.count = static_cast<std::size_t>(std::count(used.begin(), used.end(), std::uint8_t{1}));
-  if (result.count == planes) {
+  if (std::find(used.begin(), used.end(), std::uint8_t{0}) == used.end()) {
     result.of_origin[1] = common;
     return result;
   }
@@ -101,26 +100,11 @@ ResultAssembly::FinalRows ResultAssembly::final_rows(std::size_t planes) const {
   for (const std::uint32_t r : common) result.of_origin[1].push_back(row[r]);
   result.of_origin[0] = row;
   result.of_origin[VertexRun::kNew] = std::move(row);
+  result.used = std::move(used);
   return result;
 }
 
-// Cascades would otherwise carry the planes of everything that ever was.
-void ResultAssembly::drop_planes(PlaneTable& planes, const FinalRows& rows) {
-  if (rows.count == planes.size()) return;
-  const std::vector<std::uint32_t>& row = rows.of_origin[0];
-  PlaneTable kept;
-  kept.reserve(rows.count);
-  for (std::uint32_t first = 0; first < row.size(); ++first) {
-    std::uint32_t last = first;
-    while (last < row.size() && row[last] != kNone) ++last;
-    if (last == first) continue;
-    kept.append_new(planes, first, last - first);
-    first = last;
-  }
-  planes = std::move(kept);
-}
-
-void ResultAssembly::write(PlaneTable& planes, ComplexBuilder& result, unsigned threads, const Monitor& monitor) const {
+void ResultAssembly::write(PlaneTable& planes, ComplexBuilder& result, const Monitor& monitor) const {
   const FinalRows rows = final_rows(planes.size());
   reserve(result);
   std::vector<ComplexBuilder::CopiedRun> copies;
@@ -130,10 +114,11 @@ void ResultAssembly::write(PlaneTable& planes, ComplexBuilder& result, unsigned 
     const std::span<const LabelId> marks = run.marks == nullptr ? std::span<const LabelId>() : *run.marks;
     copies.push_back({run.from, r.first, r.count, rows.of_origin[r.origin], marks});
   }
-  // On one thread, the dropped planes are gone before the copies are there.
-  parallel_calls(threads, monitor,
-                 {[&](const Monitor&) { drop_planes(planes, rows); },
-                  [&](const Monitor& own) { result.copy(copies, threads, own); }});
+  // Cascades would otherwise carry the planes of everything that ever was.
+  const auto drop_planes = [&](const Monitor&) {
+    if (!rows.used.empty()) planes.keep(rows.used);
+  };
+  parallel_calls(monitor, {drop_planes, [&](const Monitor& own) { result.copy(copies, own); }});
 }
 
 }  // namespace nef

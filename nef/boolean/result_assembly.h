@@ -37,8 +37,8 @@ class ResultAssembly {
   [[nodiscard]] bool is_mostly_copies() const;
 
   /// Writes all vertices. Of the planes of the tables, which `result` must have been made with, those that nothing uses
-  /// are dropped. On up to `threads` threads.
-  void write(PlaneTable& planes, ComplexBuilder& result, unsigned threads, const Monitor& monitor) const;
+  /// are dropped. On the threads of `monitor`.
+  void write(PlaneTable& planes, ComplexBuilder& result, const Monitor& monitor) const;
 
   /// Where its vertices come from.
   [[nodiscard]] std::vector<VertexRun> origins() const;
@@ -55,10 +55,9 @@ class ResultAssembly {
     // Of each plane of an origin, in the names of that origin: its row in the result, kNone for one that is not used.
     // Empty: the same.
     std::array<std::vector<std::uint32_t>, 3> of_origin;
-    std::size_t count = 0;  // of planes that are used
+    std::vector<std::uint8_t> used;  // not zero for planes that are, by common name; empty: all
   };
   [[nodiscard]] FinalRows final_rows(std::size_t planes) const;
-  static void drop_planes(PlaneTable& planes, const FinalRows& rows);
   void reserve(ComplexBuilder& result) const;
   void append(const Run& run);
 

@@ -15,20 +15,20 @@ class UnionRun {
   explicit UnionRun(std::vector<Polyhedron>&& sets)
       : sets_(std::move(sets)), operands_(measured(sets_)), order_(operands_), alone_(order_.steps().size() == 1) {}
 
-  Polyhedron result(unsigned threads, const Monitor& monitor) {
+  Polyhedron result(const Monitor& monitor) {
     const auto steps = static_cast<std::uint32_t>(order_.steps().size());
     sets_.resize(operands_.size() + steps);
-    if (threads == 1) {
-      run({0, steps}, 1, monitor);
+    if (monitor.threads() == 1) {
+      run({0, steps}, monitor);
       return sets_.back();
     }
-    parallel_for(order_.tasks().size(), threads, monitor,
-                 [this](std::size_t i, const Monitor& own) { run(order_.tasks()[i], 1, own); });
+    parallel_for(order_.tasks().size(), monitor,
+                 [this](std::size_t i, const Monitor& own) { run(order_.tasks()[i], own); });
     // The last unions are large and few: threads that find none of their own help with those of others.
     constexpr std::size_t kFew = 8;
     for (const std::vector<std::uint32_t>& round : order_.rounds()) {
-      parallel_for(round.size(), threads, monitor, [&](std::size_t i, const Monitor& own) {
-        run({round[i], round[i] + 1}, round.size() < kFew ? threads : 1, own);
+      parallel_for(round.size(), monitor, [&](std::size_t i, const Monitor& own) {
+        run({round[i], round[i] + 1}, round.size() < kFew ? own.on_threads(monitor.threads()) : own);
       });
     }
     return sets_.back();
@@ -42,13 +42,13 @@ class UnionRun {
     return result;
   }
 
-  void run(const UnionOrder::Task& task, unsigned threads, const Monitor& own) {
+  void run(const UnionOrder::Task& task, const Monitor& own) {
     // Many small operations tell of themselves as one; a single one, of what it does.
     const Monitor of_step = alone_ ? own : own.quiet();
     for (std::uint32_t k = task.first; k < task.last; ++k) {
       Polyhedron& a = sets_[order_.steps()[k].first];
       Polyhedron& b = sets_[order_.steps()[k].second];
-      sets_[operands_.size() + k] = unite(a, b, threads, of_step);
+      sets_[operands_.size() + k] = unite(a, b, of_step);
       a = b = Polyhedron();
       if (!alone_) own.tell_progress("sets", ++done_, order_.steps().size());
     }
@@ -63,7 +63,7 @@ class UnionRun {
 
 }  // namespace
 
-Polyhedron unite_all(std::span<const Polyhedron> sets, unsigned threads, const Monitor& monitor) {
+Polyhedron unite_all(std::span<const Polyhedron> sets, const Monitor& monitor) {
   std::vector<Polyhedron> left;
   left.reserve(sets.size());
   for (const Polyhedron& set : sets) {
@@ -72,7 +72,11 @@ Polyhedron unite_all(std::span<const Polyhedron> sets, unsigned threads, const M
   }
   if (left.empty()) return sets.empty() ? Polyhedron() : sets.front();
   if (left.size() == 1) return left.front();
-  return UnionRun(std::move(left)).result(threads, monitor);
+  std::size_t vertices = 0;
+  for (const Polyhedron& set : left) vertices += set.complex().vertex_count();
+  constexpr std::size_t kFewSets = 8;
+  const Monitor of_run = left.size() < kFewSets ? for_vertices(vertices, monitor) : monitor;
+  return UnionRun(std::move(left)).result(of_run);
 }
 
 }  // namespace nef

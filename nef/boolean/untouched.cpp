@@ -63,7 +63,7 @@ class UntouchedMarks {
   }
 
  private:
-  bool touched(VertexId v) const { return items_[v].kind != Item::Kind::kNone; }
+  bool touched(VertexId v) const { return items_[v].valid(); }
 
   void settle(VertexId v, LabelId mark) {
     if (known_[v]) return;
@@ -96,8 +96,8 @@ class UntouchedMarks {
   }
 
   // The mark of the other operand's volume that halfedge h leads into from `item`, toward w.
-  LabelId mark_toward(const Item& item, HalfedgeId h, VertexId w) const {
-    if (item.kind == Item::Kind::kFacet) {
+  LabelId mark_toward(const ItemRef& item, HalfedgeId h, VertexId w) const {
+    if (item.kind == ItemRef::Kind::kFacet) {
       const Facet& facet = other_.complex().facets[item.facet()];
       const int side =
           side_of_plane(tables_.planes, other_.plane(facet.plane), tables_.points, own_.point(w), monitor_);
@@ -140,7 +140,7 @@ class UntouchedMarks {
   const Operand& other_;
   const CommonTables& tables_;
   Monitor monitor_;
-  const IndexedVector<VertexId, Item>& items_;
+  const IndexedVector<VertexId, ItemRef>& items_;
   const std::vector<EdgeContact>& contacts_;
   IndexedVector<VertexId, LabelId> marks_;
   IndexedVector<VertexId, bool> known_;

@@ -14,17 +14,16 @@ VertexId Complex::sface_vertex(SFaceId sface) const {
   return VertexId{after - vertices.begin() - 1};
 }
 
-void name_sides_of_facets(Complex& complex, unsigned threads, const Monitor& monitor) {
+void name_sides_of_facets(Complex& complex, const Monitor& monitor) {
   constexpr std::size_t kTogether = 16384;
   std::vector<FacetSides> sides(complex.facets.size());
-  parallel_for_ranges(
-      sides.size(), kTogether, threads, monitor, [&](std::size_t first, std::size_t last, const Monitor&) {
-        for (std::size_t f = first; f < last; ++f) {
-          const SHalfedgeId corner = complex.corners_of(FacetId{f}).front();
-          const auto [above, below] = complex.shalfedge_sfaces(corner);
-          sides[f] = {complex.shalfedge(corner).mark, complex.sface_volume(above), complex.sface_volume(below)};
-        }
-      });
+  parallel_for_ranges(sides.size(), kTogether, monitor, [&](std::size_t first, std::size_t last, const Monitor&) {
+    for (std::size_t f = first; f < last; ++f) {
+      const SHalfedgeId corner = complex.corners_of(FacetId{f}).front();
+      const auto [above, below] = complex.shalfedge_sfaces(corner);
+      sides[f] = {complex.shalfedge(corner).mark, complex.sface_volume(above), complex.sface_volume(below)};
+    }
+  });
   complex.facets.assign_sides(sides);
 }
 

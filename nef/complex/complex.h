@@ -141,6 +141,12 @@ struct Complex {
                        local_planes(vertex));
   }
 
+  /// True if no facet touches the edge at this end of it. Needs svertex_owner.
+  [[nodiscard]] bool is_bare(HalfedgeId halfedge) const {
+    const VertexId vertex = svertex_owner[halfedge];
+    return patterns.svertex(vertices.pattern(vertex), halfedge - vertices.svertices(vertex)).out == kNone;
+  }
+
   /// A shalfedge as the item that it is in the sphere map of its vertex. Needs the owners.
   [[nodiscard]] SHalfedge shalfedge(SHalfedgeId shalfedge) const {
     SHalfedge item = in_pattern(shalfedge);
@@ -239,7 +245,7 @@ struct Complex {
 
 /// Writes into all facets what is on them and on both sides of them, as their first corners tell it; where shells and
 /// volumes are known. O(facets).
-void name_sides_of_facets(Complex& complex, unsigned threads, const Monitor& monitor);
+void name_sides_of_facets(Complex& complex, const Monitor& monitor);
 
 /// Calls change(plane) for the planes that sphere maps of a complex name, those of twins once. Of a complex that is not
 /// const, planes may be changed; then opposite planes must become opposite planes.

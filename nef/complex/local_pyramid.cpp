@@ -56,6 +56,43 @@ void edge_pyramid(const SphereMapView& map, std::uint32_t svertex, SphereMapBuff
   out.svertices = {ahead, back};
 }
 
+LabelId mark_of(const Complex& complex, const ItemRef& item) {
+  switch (item.kind) {
+    case ItemRef::Kind::kVertex:
+      return complex.mark(item.vertex());
+    case ItemRef::Kind::kEdge:
+      return complex.svertex(item.halfedge()).mark;
+    case ItemRef::Kind::kFacet:
+      return complex.facets[item.facet()].mark;
+    case ItemRef::Kind::kVolume:
+    case ItemRef::Kind::kNone:
+      break;
+  }
+  return complex.volumes[item.volume()].mark;
+}
+
+void pyramid_of(const Complex& complex, const ItemRef& item, SphereMapBuffer& out) {
+  switch (item.kind) {
+    case ItemRef::Kind::kVertex:
+      out.assign(complex.sphere_map(item.vertex()));
+      break;
+    case ItemRef::Kind::kEdge: {
+      const VertexId vertex = complex.source(item.halfedge());
+      edge_pyramid(complex.sphere_map(vertex), complex.halfedges(vertex).position(item.halfedge()), out);
+      break;
+    }
+    case ItemRef::Kind::kFacet: {
+      const Facet& facet = complex.facets[item.facet()];
+      out.assign_circle(facet.plane, facet.mark, complex.volumes[facet.volume_above].mark,
+                        complex.volumes[facet.volume_below].mark);
+      break;
+    }
+    case ItemRef::Kind::kVolume:
+    case ItemRef::Kind::kNone:
+      out.assign_trivial(complex.volumes[item.volume()].mark);
+  }
+}
+
 bool is_vertex(const PlaneTable& planes, const SphereMapView& map, const Monitor& monitor) {
   if (!map.sloops.empty()) return !map.svertices.empty() || map.mark != map.sloops[0].mark;
   if (map.svertices.empty()) return map.mark != map.sfaces[0].mark;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Local pyramids of points inside edges and facets, made from the sphere map of a vertex nearby.
+// Local pyramids of the points of any item: of a vertex, inside an edge or a facet, in a volume.
 #pragma once
 
 #include <vector>
 
 #include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
+#include "nef/complex/item_ref.h"
 
 namespace nef {
 
@@ -15,6 +16,13 @@ namespace nef {
 /// `sfaces[i]` of `map`. O(number of facets around the edge).
 void edge_pyramid(const SphereMapView& map, std::uint32_t svertex, SphereMapBuffer& out,
                   std::vector<std::uint32_t>* sfaces = nullptr);
+
+/// The mark of an item, which must not be none.
+LabelId mark_of(const Complex& complex, const ItemRef& item);
+
+/// The local pyramid of the points of an item, which must not be none; an edge seen along the halfedge that names it.
+/// O(its size).
+void pyramid_of(const Complex& complex, const ItemRef& item, SphereMapBuffer& out);
 
 /// True if a point with this simplified sphere map is a vertex of the complex, and not a point
 /// inside a volume, facet or edge.

@@ -46,8 +46,10 @@ struct MeshOptions {
                             ///< false: there are none. All else is checked; where such faces keep vertices from
                             ///< fitting together they are looked for nevertheless (InputError), others go unseen
   Crossings crossings = Crossings::kRefuse;  ///< what to do where faces cross or enclose something several times
-  unsigned threads = 1;  ///< to use at most; 0: as many as the machine has. The result does not depend on them
-  Monitor monitor = {};  ///< who watches; what it refers to must outlive the call
+  double close_percent = 0;  ///< above 0: a mesh that bounds no solid is repaired like by repair_mesh, and its holes
+                             ///< are closed by lids of at most this share in the area of the mesh with them, a guess
+                             ///< that is noted like all that was done
+  Monitor monitor = {};      ///< who watches; what it refers to must outlive the call
 };
 
 /// Notes about what was done to the input (faces that were triangulated).
@@ -59,7 +61,8 @@ using Messages = std::vector<std::string>;
 /// Throws InputError for a mesh that is open, inconsistently oriented or crosses itself, or has vertices but no faces,
 /// naming the first guilty elements. With a rule for crossings, meshes that cross themselves become the closure of the
 /// interior of what the rule takes (which is noted); they still must be closed, and oriented consistently where the
-/// rule needs that. Only faces that meet others are arranged: O(n log n) for n faces with few contacts.
+/// rule needs that, unless close_percent asks for a repair. Only faces that meet others are arranged: O(n log n) for n
+/// faces with few contacts.
 Polyhedron from_mesh(const Mesh& mesh, const MeshOptions& options = {}, Messages* messages = nullptr);
 
 }  // namespace nef

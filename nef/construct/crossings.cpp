@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/construct/crossings.h"
 
+#include "nef/base/counted.h"
+
 namespace nef {
 namespace {
 
@@ -10,11 +12,13 @@ struct Words {
 };
 
 // In the order of the rules.
-constexpr std::array<Words, kAllCrossings.size()> kWords{{{"refuse", "nothing"},
-                                                          {"union", "what is enclosed at least once"},
-                                                          {"nonzero", "what has a winding number other than 0"},
-                                                          {"odd", "what is enclosed an odd number of times"},
-                                                          {"outside", "what cannot be reached from outside"}}};
+constexpr std::array<Words, kAllCrossings.size()> kWords{
+    {{"refuse", "nothing"},
+     {"union", "what is enclosed at least once"},
+     {"nonzero", "what has a winding number other than 0"},
+     {"odd", "what is enclosed an odd number of times"},
+     {"outside", "what cannot be reached from outside"},
+     {"guess", "what the faces wind around by half at least, a guess,"}}};
 
 }  // namespace
 
@@ -22,9 +26,7 @@ const char* name(Crossings rule) { return kWords[static_cast<std::size_t>(rule)]
 
 const char* taken_by(Crossings rule) { return kWords[static_cast<std::size_t>(rule)].takes; }
 
-std::string crossing_text(std::size_t pairs) {
-  return pairs == 1 ? "1 pair of faces crosses" : std::to_string(pairs) + " pairs of faces cross";
-}
+std::string crossing_text(std::size_t pairs) { return counted(pairs, "pair of faces crosses", "pairs of faces cross"); }
 
 std::optional<Crossings> crossings_of_name(std::string_view wanted) {
   for (const Crossings rule : kAllCrossings) {
@@ -42,6 +44,7 @@ bool is_taken(Crossings rule, int winding) {
     case Crossings::kRefuse:
     case Crossings::kNonzero:
     case Crossings::kOutside:
+    case Crossings::kGuess:
       break;
   }
   return winding != 0;

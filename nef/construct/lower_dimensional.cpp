@@ -131,7 +131,7 @@ Polyhedron make_polygon(std::span<const std::vector<Rational3>> rings, const Mon
     require_simple(ring, normal, monitor);
     const Polyhedron piece = fill_ring(ring, normal, monitor);
     // Rings may touch: the parity of the closed sets loses points of the boundary, its closure has them.
-    result = result.is_empty() ? piece : closure(symmetric_difference(result, piece, 1, monitor), monitor);
+    result = result.is_empty() ? piece : closure(symmetric_difference(result, piece, monitor), monitor);
   }
   return result;
 }

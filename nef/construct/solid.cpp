@@ -323,7 +323,7 @@ Complex clip_to_infimaximal_box(const Complex& solid, const Monitor& monitor) {
   };
   return overlay_complexes(
              solid, box, clip, [&]() -> const QueryStructure& { return ask(solid, of_solid); },
-             [&]() -> const QueryStructure& { return ask(box, of_box); }, 1, monitor)
+             [&]() -> const QueryStructure& { return ask(box, of_box); }, monitor)
       .value_or(solid);
 }
 

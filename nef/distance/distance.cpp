@@ -14,11 +14,11 @@
 #include <cmath>
 
 #include "nef/base/error.h"
+#include "nef/complex/predicates_of_sets.h"
 #include "nef/construct/construct.h"
 #include "nef/distance/intersects.h"
 #include "nef/distance/nearest_features.h"
 #include "nef/polyhedron.h"
-#include "nef/query/predicates_of_sets.h"
 
 namespace nef {
 namespace {
@@ -54,7 +54,7 @@ Rational3 some_point(const Polyhedron& closed, const Monitor& monitor) {
   };
   const Complex& c = closed.complex();
   if (std::optional<Rational3> vertex = first_vertex(c)) return *vertex;
-  std::optional<Rational3> corner = first_vertex(intersect(closed, wide_enough(c, c, monitor), 1, monitor).complex());
+  std::optional<Rational3> corner = first_vertex(intersect(closed, wide_enough(c, c, monitor), monitor).complex());
   NEF_ASSERT(corner);
   return *corner;
 }
@@ -98,13 +98,13 @@ std::optional<Distance> distance(const Polyhedron& a, const Polyhedron& b, const
     result.contact = intersects(interior(a, monitor), interior(b, monitor), unmoved, monitor) ? Contact::kOverlapping
                                                                                               : Contact::kTouching;
     result.common_point = result.contact == Contact::kOverlapping || intersects(a, b, unmoved, monitor);
-    result.on_a = result.on_b = some_point(intersect(closed_a, closed_b, 1, monitor), monitor);
+    result.on_a = result.on_b = some_point(intersect(closed_a, closed_b, monitor), monitor);
     return result;
   }
   if (!bounded) {
     const Polyhedron cube = wide_enough(closed_a.complex(), closed_b.complex(), monitor);
-    closed_a = intersect(closed_a, cube, 1, monitor);
-    closed_b = intersect(closed_b, cube, 1, monitor);
+    closed_a = intersect(closed_a, cube, monitor);
+    closed_b = intersect(closed_b, cube, monitor);
   }
   const NearestPair pair = nearest_features(closed_a.complex(), closed_b.complex(), monitor);
   result.squared = pair.squared;

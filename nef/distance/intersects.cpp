@@ -9,18 +9,24 @@
 // A. For the vertices that edges connect, one has to be asked, and only if no contact was found on the edges: where an
 // edge of A leaves a contact into a volume that is in B, the local pyramids meet at the contact.
 //
-// Edges are asked against facets. Edges and vertices without facets ask each other, and are located.
+// Edges are asked against facets, in doubles first (`CrossingFilter`). If an edge crosses the inside of a facet, the
+// sets meet: near the edge there are points of its set, all of whose translates along the edge are such, and one of
+// these is on the facet or on whichever side of it belongs to the other set. Edges and vertices without facets ask each
+// other, and are located.
 #include "nef/distance/intersects.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
 #include <unordered_map>
 #include <vector>
 
+#include "nef/base/fast_path.h"
 #include "nef/base/union_find.h"
 #include "nef/complex/item_boxes.h"
 #include "nef/complex/local_pyramid.h"
+#include "nef/distance/crossing_filter.h"
 #include "nef/distance/nearest_features.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/geometry/vectors.h"
@@ -37,16 +43,6 @@ struct EdgeEnds {
   VertexId from{0}, to{0};
 };
 
-// A vertex, an edge (as a halfedge) or a facet.
-struct Place {
-  Location::Kind kind = Location::Kind::kVertex;
-  std::uint32_t index = 0;
-  auto operator<=>(const Place&) const = default;
-};
-
-Place at_vertex(VertexId v) { return {Location::Kind::kVertex, v.index()}; }
-Place at_edge(HalfedgeId h) { return {Location::Kind::kEdge, h.index()}; }
-
 // The box moved, rounded outward: doubles of boxes and of the translation are within 2^-52 relative, and each bound
 // rounds once more.
 Box shifted(const Box& box, const std::array<double, 3>& by) {
@@ -60,6 +56,37 @@ Box shifted(const Box& box, const std::array<double, 3>& by) {
     result.high[i] = known ? high + slack : HUGE_VAL;
   }
   return result;
+}
+
+// Whether a box within some bounds may meet another one when it is moved: as shifted, with one slack for all.
+class MovedBoxes {
+ public:
+  MovedBoxes(const Box& bounds, const std::array<double, 3>& by) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      // That of the largest coordinate, and what the sums with `by` round off.
+      const double slack = (std::fabs(bounds.low[i]) + std::fabs(bounds.high[i]) + std::fabs(by[i])) * 0x1p-49 + 1e-300;
+      unknown_[i] = slack < HUGE_VAL ? 0 : 1;
+      low_[i] = by[i] - slack;
+      high_[i] = by[i] + slack;
+    }
+  }
+
+  bool operator()(const Box& box, const Box& other) const {
+    unsigned meet = 1;
+    for (std::size_t i = 0; i < 3; ++i) {
+      meet &= unknown_[i] | (static_cast<unsigned>(box.low[i] + low_[i] <= other.high[i]) &
+                             static_cast<unsigned>(other.low[i] <= box.high[i] + high_[i]));
+    }
+    return meet != 0;
+  }
+
+ private:
+  std::array<double, 3> low_{}, high_{};
+  std::array<unsigned, 3> unknown_{};
+};
+
+Approximation3 moved_by(const Approximation3& point, const Approximation3& by) {
+  return {point[0] + by[0], point[1] + by[1], point[2] + by[2]};
 }
 
 // What of one set is the same for all translations.
@@ -89,6 +116,7 @@ struct Side {
       if (part.back() == v) parts.push_back(v);
     }
     for (const HalfedgeId h : c.bare_edges()) bare.push_back({h, c.source(h), c.target(h)});
+    filter.emplace(c, points);
   }
 
   [[nodiscard]] const BoxTree* tree_of(FacetId facet) const {
@@ -96,30 +124,10 @@ struct Side {
     return found == trees.end() ? nullptr : &found->second;
   }
 
-  [[nodiscard]] LabelId mark(const Place& place) const {
-    if (place.kind == Location::Kind::kVertex) return c.mark(VertexId{place.index});
-    if (place.kind == Location::Kind::kEdge) return c.svertex(HalfedgeId{place.index}).mark;
-    return c.facets[FacetId{place.index}].mark;
-  }
-
-  void pyramid(const Place& place, SphereMapBuffer& out) const {
-    if (place.kind == Location::Kind::kVertex) {
-      out.assign(c.sphere_map(VertexId{place.index}));
-    } else if (place.kind == Location::Kind::kEdge) {
-      const HalfedgeId h{place.index};
-      const VertexId v = c.source(h);
-      edge_pyramid(c.sphere_map(v), c.halfedges(v).position(h), out);
-    } else {
-      const Facet& facet = c.facets[FacetId{place.index}];
-      out.assign_circle(facet.plane, facet.mark, c.volumes[facet.volume_above].mark,
-                        c.volumes[facet.volume_below].mark);
-    }
-  }
-
   // A vertex on the part of the boundary, connected by edges, that an item is on; kNone for facets.
-  [[nodiscard]] std::uint32_t part_of(const Place& place) const {
-    if (place.kind == Location::Kind::kVertex) return part[place.index];
-    return place.kind == Location::Kind::kEdge ? part[c.source(HalfedgeId{place.index}).index()] : kNone;
+  [[nodiscard]] std::uint32_t part_of(const ItemRef& place) const {
+    if (place.kind == ItemRef::Kind::kVertex) return part[place.vertex().index()];
+    return place.kind == ItemRef::Kind::kEdge ? part[c.source(place.halfedge()).index()] : kNone;
   }
 
   Polyhedron set;
@@ -127,12 +135,31 @@ struct Side {
   std::vector<Rational3> points;
   std::vector<EdgeEnds> edges, bare;  // bare edges bound no facet
   std::vector<Box> edge_boxes;
+  std::optional<CrossingFilter> filter;  // once the points are known
   BoxTree edge_tree, facet_tree;
   std::unordered_map<std::size_t, BoxTree> trees;  // of facets with many corners
   Box bounds;
   std::vector<std::uint32_t> part;   // per vertex, one of those that edges connect it with
   std::vector<std::uint32_t> parts;  // these
 };
+
+// Calls visit(edge, facet) for pairs of an edge of one side, moved, and a facet of the other one whose boxes meet,
+// until it returns false. Parts of the tree of edges go where the tree of facets has nothing.
+template <typename Visit>
+void for_each_near_pair(const Side& own, const std::array<double, 3>& by, const Side& other, Visit&& visit) {
+  const MovedBoxes meet(own.bounds, by);
+  bool goes_on = true;
+  const auto is_near = [&](const Box& box) {
+    bool any = false;
+    other.facet_tree.for_each_if([&](const Box& of) { return goes_on && !any && meet(box, of); },
+                                 [&](std::uint32_t) { any = true; });
+    return any;
+  };
+  own.edge_tree.for_each_if(is_near, [&](std::uint32_t e) {
+    other.facet_tree.for_each_if([&](const Box& of) { return goes_on && meet(own.edge_boxes[e], of); },
+                                 [&](std::uint32_t f) { goes_on = goes_on && visit(e, f); });
+  });
+}
 
 // The planes of a complex, moved to the origin, in a common table: equal where normals are.
 std::vector<PlaneId> intern_normals(const PlaneTable& from, PlaneTable& to) {
@@ -145,15 +172,24 @@ std::vector<PlaneId> intern_normals(const PlaneTable& from, PlaneTable& to) {
   return result;
 }
 
-Rational3 sum(const Rational3& p, const Rational3& q) {
-  return {Rational(p[0] + q[0]), Rational(p[1] + q[1]), Rational(p[2] + q[2])};
+// A point, and the same in doubles.
+struct Spot {
+  const Rational3& exact;
+  const Approximation3& near;
+};
+
+template <typename Number>
+Number turn(const std::array<Number, 3>& p, const std::array<Number, 3>& q, const std::array<Number, 3>& r,
+            std::size_t axis) {
+  const std::size_t x = (axis + 1) % 3;
+  const std::size_t y = (axis + 2) % 3;
+  return (q[x] - p[x]) * (r[y] - p[y]) - (q[y] - p[y]) * (r[x] - p[x]);
 }
 
 // The turn of three points of a plane, seen along an axis.
-int turn(const Rational3& p, const Rational3& q, const Rational3& r, std::size_t axis) {
-  const std::size_t x = (axis + 1) % 3;
-  const std::size_t y = (axis + 2) % 3;
-  return sgn(Rational((q[x] - p[x]) * (r[y] - p[y]) - (q[y] - p[y]) * (r[x] - p[x])));
+int turn(const Spot& p, const Spot& q, const Spot& r, std::size_t axis, const Monitor& monitor) {
+  return sign_by_ladder(turn(p.near, q.near, r.near, axis), monitor,
+                        [&] { return sgn(turn(p.exact, q.exact, r.exact, axis)); });
 }
 
 }  // namespace meeting
@@ -187,14 +223,24 @@ class MeetingSearch {
     const Rational3 back = {Rational(-translation[0]), Rational(-translation[1]), Rational(-translation[2])};
     shift_ = {back, translation};
     for (std::size_t x = 0; x < 2; ++x) {
-      for (std::size_t i = 0; i < 3; ++i) rounded_shift_[x][i] = nearest_double(shift_[x][i]);
+      Integer& common = shift_integers_[x][3];
+      common = 1;
+      for (const Rational& by : shift_[x]) mpz_lcm(common.get_mpz_t(), common.get_mpz_t(), by.get_den_mpz_t());
+      for (std::size_t i = 0; i < 3; ++i)
+        shift_integers_[x][i] = shift_[x][i].get_num() * (common / shift_[x][i].get_den());
+    }
+    for (std::size_t x = 0; x < 2; ++x) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        rounded_shift_[x][i] = nearest_double(shift_[x][i]);
+        near_shift_[x][i] = approximation_of(shift_[x][i]);
+      }
       touched_[x].assign(side(x).c.vertex_count(), 0);
     }
   }
 
   bool run() {
     if (!shifted(side(0).bounds, rounded_shift_[0]).overlaps(side(1).bounds)) return false;
-    for (std::size_t x = 0; x < 2 && !found_; ++x) edges_against_facets(x);
+    edges_against_facets();
     if (!found_) bare_edges();
     for (std::size_t x = 0; x < 2 && !found_; ++x) locate_parts(x);
     return found_;
@@ -204,22 +250,22 @@ class MeetingSearch {
   [[nodiscard]] const Side& side(std::size_t x) const { return *body_.sides[x]; }
 
   // A vertex of side x where the other side sees it.
-  [[nodiscard]] Rational3 moved(std::size_t x, VertexId v) const { return sum(side(x).points[v.index()], shift_[x]); }
+  [[nodiscard]] Rational3 moved(std::size_t x, VertexId v) const { return plus(side(x).points[v.index()], shift_[x]); }
 
   // Items of both sides at one point.
-  void contact(std::size_t x, const Place& own, const Place& other) {
-    const std::array<Place, 2> places = x == 0 ? std::array{own, other} : std::array{other, own};
+  void contact(std::size_t x, const ItemRef& own, const ItemRef& other) {
+    const std::array<ItemRef, 2> places = x == 0 ? std::array{own, other} : std::array{other, own};
     if (found_ || !contacts_.insert(places).second) return;
     for (std::size_t k = 0; k < 2; ++k) {
       const std::uint32_t part = side(k).part_of(places[k]);
       if (part != kNone) touched_[k][part] = 1;
     }
-    found_ = (side(0).mark(places[0]) != 0 && side(1).mark(places[1]) != 0) || pyramids_meet(places);
+    found_ = (mark_of(side(0).c, places[0]) != 0 && mark_of(side(1).c, places[1]) != 0) || pyramids_meet(places);
   }
 
-  bool pyramids_meet(const std::array<Place, 2>& places) {
+  bool pyramids_meet(const std::array<ItemRef, 2>& places) {
     for (std::size_t k = 0; k < 2; ++k) {
-      side(k).pyramid(places[k], pyramid_[k]);
+      pyramid_of(side(k).c, places[k], pyramid_[k]);
       for_each_plane(pyramid_[k], [&](PlaneId& plane) {
         if (!plane.valid()) return;
         const PlaneId unflipped = body_.normals[k][plane.row()];
@@ -233,32 +279,69 @@ class MeetingSearch {
     return out_.mark != 0 || any(out_.sfaces) || any(out_.shalfedges) || any(out_.sloops) || any(out_.svertices);
   }
 
-  void edges_against_facets(std::size_t x) {
-    const Side& own = side(x);
-    const Side& other = side(1 - x);
-    own.edge_tree.for_each_if(
-        [&](const Box& box) { return !found_ && shifted(box, rounded_shift_[x]).overlaps(other.bounds); },
-        [&](std::uint32_t e) {
+  // Most sets that meet do so where an edge surely crosses a facet; exact numbers are for pairs that are left if none
+  // does.
+  void edges_against_facets() {
+    std::array<std::vector<std::array<std::uint32_t, 2>>, 2> unsure;
+    for (std::size_t x = 0; x < 2 && !found_; ++x) {
+      const Side& own = side(x);
+      const Side& other = side(1 - x);
+      monitor_.check_interruption();
+      for_each_near_pair(own, rounded_shift_[x], other, [&](std::uint32_t e, std::uint32_t f) {
+        const EdgeCrossing crossing =
+            kFastPaths ? other.filter->ask(FacetId{f}, near_moved(x, own.edges[e].from), near_moved(x, own.edges[e].to))
+                       : EdgeCrossing::kUnsure;
+        if (crossing == EdgeCrossing::kUnsure) {
+          unsure[x].push_back({e, f});
+        } else {
+          monitor_.count_filter();
+          found_ = crossing == EdgeCrossing::kCrosses;
+        }
+        return !found_;
+      });
+    }
+    for (std::size_t x = 0; x < 2 && !found_; ++x) {
+      std::sort(unsure[x].begin(), unsure[x].end());
+      std::uint32_t last = kNone;
+      Moving edge;
+      for (const auto& [e, f] : unsure[x]) {
+        if (e != last) {
           monitor_.check_interruption();
-          const Box box = shifted(own.edge_boxes[e], rounded_shift_[x]);
-          Moving edge;
-          other.facet_tree.for_each_if([&](const Box& of) { return !found_ && of.overlaps(box); },
-                                       [&](std::uint32_t f) { meet_facet(x, own.edges[e], edge, FacetId{f}); });
-        });
+          edge = {};
+          last = e;
+        }
+        meet_facet(x, side(x).edges[e], edge, FacetId{f});
+        if (found_) break;
+      }
+    }
+  }
+
+  [[nodiscard]] Approximation3 near_moved(std::size_t x, VertexId v) const {
+    return moved_by(side(x).filter->point(v), near_shift_[x]);
   }
 
   // An edge where the other side sees it, made when it is needed.
   struct Moving {
     bool known = false;
-    std::array<Rational3, 2> end;
-    PointTable table;  // both ends, then points on it
+    PointTable table;  // both ends, then points on it; coordinates may have common factors
   };
+
+  // Appends a vertex of side x where the other side sees it.
+  void push_moved(std::size_t x, VertexId v, PointTable& to) const {
+    const std::array<IntegerView, 4> point = side(x).c.points.coordinates(point_of(v));
+    std::array<Integer, 7> h;
+    for (std::size_t i = 0; i < 3; ++i) {
+      mpz_mul(h[i].get_mpz_t(), point[i], shift_integers_[x][3].get_mpz_t());
+      mpz_addmul(h[i].get_mpz_t(), point[3], shift_integers_[x][i].get_mpz_t());
+    }
+    mpz_mul(h[3].get_mpz_t(), point[3], shift_integers_[x][3].get_mpz_t());
+    to.push_homogeneous(h);
+  }
 
   void meet_facet(std::size_t x, const EdgeEnds& edge, Moving& at, FacetId f) {
     const Complex& c = side(1 - x).c;
     if (!at.known) {
-      at.end = {moved(x, edge.from), moved(x, edge.to)};
-      for (const Rational3& p : at.end) at.table.push(p);
+      for (const VertexId v : {edge.from, edge.to}) push_moved(x, v, at.table);
       at.known = true;
     }
     const Facet& facet = c.facets[f];
@@ -268,57 +351,59 @@ class MeetingSearch {
     }
     if (sign[0] * sign[1] > 0) return;
     if (sign[0] * sign[1] < 0) {
-      const PointId crossing = at.table.push(crossing_point(c.planes, facet.plane, at.end));
-      meet_at(x, at_edge(edge.halfedge), f, {&at.table, crossing});
+      const PointId crossing = push_crossing(c.planes, facet.plane, at.table);
+      meet_at(x, ItemRef(edge.halfedge), f, {&at.table, crossing});
       at.table.pop();
       return;
     }
-    if (sign[0] == 0) meet_at(x, at_vertex(edge.from), f, {&at.table, PointId{0U}});
-    if (sign[1] == 0) meet_at(x, at_vertex(edge.to), f, {&at.table, PointId{1U}});
-    if (sign[0] == 0 && sign[1] == 0) meet_border(x, edge, at.end, f);
+    if (sign[0] == 0) meet_at(x, ItemRef(edge.from), f, {&at.table, PointId{0U}});
+    if (sign[1] == 0) meet_at(x, ItemRef(edge.to), f, {&at.table, PointId{1U}});
+    if (sign[0] == 0 && sign[1] == 0)
+      meet_border(x, edge, {at.table.rational(PointId{0U}), at.table.rational(PointId{1U})}, f);
   }
 
-  static Rational3 crossing_point(const PlaneTable& planes, PlaneId plane, const std::array<Rational3, 2>& end) {
-    Rational3 normal;
-    for (std::size_t i = 0; i < 3; ++i) normal[i] = Integer(planes.coefficient(plane, i));
-    const Rational offset = Integer(planes.coefficient(plane, 3));
-    const Rational from = dot(normal, end[0]) + offset;
-    const Rational to = dot(normal, end[1]) + offset;
-    const Rational t = from / (from - to);
-    Rational3 point;
-    for (std::size_t i = 0; i < 3; ++i) point[i] = end[0][i] + t * (end[1][i] - end[0][i]);
-    return point;
+  // Appends the point where the segment between the first two points crosses a plane: with the plane's forms v0 and v1
+  // at their coordinates x0 and x1, that is v0 x1 - v1 x0.
+  static PointId push_crossing(const PlaneTable& planes, PlaneId plane, PointTable& table) {
+    std::array<Integer, 2> form;
+    for (std::uint32_t k = 0; k < 2; ++k) {
+      const std::array<IntegerView, 4> x = table.coordinates(PointId{k});
+      for (std::size_t i = 0; i < 4; ++i) mpz_addmul(form[k].get_mpz_t(), planes.coefficient(plane, i), x[i]);
+    }
+    std::array<Integer, 7> h;
+    for (std::size_t i = 0; i < 4; ++i) {
+      mpz_mul(h[i].get_mpz_t(), form[0].get_mpz_t(), table.coordinate(PointId{1U}, i));
+      mpz_submul(h[i].get_mpz_t(), form[1].get_mpz_t(), table.coordinate(PointId{0U}, i));
+    }
+    return table.push_homogeneous(h);
   }
 
   // A point of side x that is on the plane of a facet.
-  void meet_at(std::size_t x, const Place& own, FacetId f, const PointRef& point) {
+  void meet_at(std::size_t x, const ItemRef& own, FacetId f, const PointRef& point) {
     const Side& other = side(1 - x);
-    const FacetPlace place = locate_in_facet(other.c, other.c.facets[f], point, other.tree_of(f), monitor_);
-    switch (place.kind) {
-      case FacetPlace::Kind::kOutside:
-        return;
-      case FacetPlace::Kind::kInside:
-        return contact(x, own, inside_of(other.c, f, point));
-      case FacetPlace::Kind::kEdge:
-        return contact(x, own, edge_of(other.c, place.halfedge()));
-      case FacetPlace::Kind::kVertex:
-        return contact(x, own, at_vertex(place.vertex()));
-    }
+    const ItemRef place = locate_in_facet(other.c, f, point, other.tree_of(f), monitor_);
+    if (place.kind == ItemRef::Kind::kFacet) contact(x, own, inside_of(other.c, f, point));
+    if (place.kind == ItemRef::Kind::kEdge) contact(x, own, edge_of(other.c, place.halfedge()));
+    if (place.kind == ItemRef::Kind::kVertex) contact(x, own, place);
   }
 
   // The facet itself, or the vertex in its inside at this point: one that is no corner of it.
-  [[nodiscard]] Place inside_of(const Complex& c, FacetId f, const PointRef& point) const {
+  [[nodiscard]] ItemRef inside_of(const Complex& c, FacetId f, const PointRef& point) const {
     for (const VertexId v : c.isolated_vertices_of(c.facets[f])) {
-      if (same_point({&c.points, point_of(v)}, point, monitor_)) return at_vertex(v);
+      if (same_point({&c.points, point_of(v)}, point, monitor_)) return ItemRef(v);
     }
-    return {Location::Kind::kFacet, f.index()};
+    return ItemRef(f);
   }
 
-  static Place edge_of(const Complex& c, HalfedgeId h) { return at_edge(std::min(h, c.twin[h])); }
+  static ItemRef edge_of(const Complex& c, HalfedgeId h) { return ItemRef(std::min(h, c.twin[h])); }
 
   // An edge of side x in the plane of a facet, and the facet's border: crossings, and vertices inside of the edge.
   void meet_border(std::size_t x, const EdgeEnds& edge, const std::array<Rational3, 2>& end, FacetId f) {
     const Side& other = side(1 - x);
+    const Approximation3 near_from = near_moved(x, edge.from);
+    const Approximation3 near_to = near_moved(x, edge.to);
+    const Spot from_end{end[0], near_from};
+    const Spot to_end{end[1], near_to};
     std::size_t axis = 0;
     for (std::size_t i = 1; i < 3; ++i) {
       if (abs(Integer(other.c.planes.coefficient(other.c.facets[f].plane, i))) >
@@ -328,17 +413,18 @@ class MeetingSearch {
     for (const SHalfedgeId corner : other.c.corners_of(other.c.facets[f])) {
       const HalfedgeId h = other.c.corner_halfedge(corner);
       const VertexId from = other.c.shalfedge_vertex(corner);
-      const Rational3& p = other.points[from.index()];
-      const Rational3& q = other.points[other.c.target(h).index()];
-      const int of_p = turn(end[0], end[1], p, axis);
+      const VertexId to = other.c.target(h);
+      const Spot p{other.points[from.index()], other.filter->point(from)};
+      const Spot q{other.points[to.index()], other.filter->point(to)};
+      const int of_p = turn(from_end, to_end, p, axis, monitor_);
       if (of_p == 0) {
-        const Rational3 to_ends[2] = {minus(end[0], p), minus(end[1], p)};
-        if (dot(to_ends[0], to_ends[1]) < 0) contact(x, at_edge(edge.halfedge), at_vertex(from));
+        const Rational3 to_ends[2] = {minus(end[0], p.exact), minus(end[1], p.exact)};
+        if (dot(to_ends[0], to_ends[1]) < 0) contact(x, ItemRef(edge.halfedge), ItemRef(from));
         continue;
       }
-      if (of_p * turn(end[0], end[1], q, axis) >= 0) continue;
-      if (turn(p, q, end[0], axis) * turn(p, q, end[1], axis) < 0)
-        contact(x, at_edge(edge.halfedge), edge_of(other.c, h));
+      if (of_p * turn(from_end, to_end, q, axis, monitor_) >= 0) continue;
+      if (turn(p, q, from_end, axis, monitor_) * turn(p, q, to_end, axis, monitor_) < 0)
+        contact(x, ItemRef(edge.halfedge), edge_of(other.c, h));
     }
   }
 
@@ -351,8 +437,8 @@ class MeetingSearch {
         const NearestPair pair = nearest_of_segments(ends, others);
         if (pair.squared != 0) continue;
         const auto place = [&](const EdgeEnds& of, const std::array<Rational3, 2>& at) {
-          if (pair.on_a == at[0]) return at_vertex(of.from);
-          return pair.on_a == at[1] ? at_vertex(of.to) : at_edge(of.halfedge);
+          if (pair.on_a == at[0]) return ItemRef(of.from);
+          return pair.on_a == at[1] ? ItemRef(of.to) : ItemRef(of.halfedge);
         };
         contact(0, place(e, ends), place(f, others));
       }
@@ -370,9 +456,9 @@ class MeetingSearch {
     if (at.kind == Location::Kind::kVolume) {
       found_ = at.mark != 0;
     } else if (at.kind == Location::Kind::kEdge) {
-      contact(x, at_vertex(v), edge_of(side(1 - x).c, at.halfedge()));
+      contact(x, ItemRef(v), edge_of(side(1 - x).c, at.halfedge()));
     } else {
-      contact(x, at_vertex(v), {at.kind, at.index});
+      contact(x, ItemRef(v), at);
     }
   }
 
@@ -386,10 +472,12 @@ class MeetingSearch {
   const Body& body_;
   Monitor monitor_;
   LabelFunction both_;
-  std::array<Rational3, 2> shift_;  // of each side, to where the other one sees it
+  std::array<Rational3, 2> shift_;                        // of each side, to where the other one sees it
+  std::array<std::array<Integer, 4>, 2> shift_integers_;  // the same with a common denominator
   std::array<std::array<double, 3>, 2> rounded_shift_{};
+  std::array<Approximation3, 2> near_shift_;
   std::array<std::vector<std::uint8_t>, 2> touched_;  // parts of boundaries
-  std::set<std::array<Place, 2>> contacts_;
+  std::set<std::array<ItemRef, 2>> contacts_;
   std::array<SphereMapBuffer, 2> pyramid_;
   SphereMapBuffer out_;
   SphereOverlay overlay_;
@@ -405,9 +493,48 @@ bool IntersectionQuery::meet(const Rational3& translation, const Monitor& monito
   const auto& [a, b] = body_->sets;
   if (a.is_empty() || b.is_empty()) return false;
   if (body_->sides.empty()) {
-    return !intersect(a, transform(b, AffineMap::translate(translation), monitor), 1, monitor).is_empty();
+    return !intersect(a, transform(b, AffineMap::translate(translation), monitor), monitor).is_empty();
   }
   return meeting::MeetingSearch<Body>(*body_, translation, monitor).run();
+}
+
+// Whether an edge of side x surely crosses the inside of a facet of the other one. In builds without fast paths, too:
+// what it leaves out of a sum is named by nothing, and names decide the order of vertices.
+bool IntersectionQuery::surely_cross(const Approximation3& translation, Crossings& recent, bool search) const {
+  if (body_->sides.empty()) return false;
+  const std::array<Approximation3, 2> shift = {Approximation3{-translation[0], -translation[1], -translation[2]},
+                                               translation};
+  const auto crosses = [&](const Crossings::Pair& pair) {
+    const meeting::Side& own = *body_->sides[pair.of_edge];
+    const meeting::EdgeEnds& edge = own.edges[pair.edge];
+    return body_->sides[1 - pair.of_edge]->filter->ask(
+               FacetId{pair.facet}, meeting::moved_by(own.filter->point(edge.from), shift[pair.of_edge]),
+               meeting::moved_by(own.filter->point(edge.to), shift[pair.of_edge])) == EdgeCrossing::kCrosses;
+  };
+  std::vector<Crossings::Pair>& pairs = recent.pairs_;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    if (!crosses(pairs[i])) continue;
+    std::rotate(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(i),
+                pairs.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    return true;
+  }
+  bool found = false;
+  for (std::uint32_t x = 0; x < 2 && search && !found; ++x) {
+    // An edge that crosses the facet at all of the translations does so at this one, where their boxes meet, then.
+    const std::array<double, 3> by = {shift[x][0].value, shift[x][1].value, shift[x][2].value};
+    const meeting::Side& own = *body_->sides[x];
+    const meeting::Side& other = *body_->sides[1 - x];
+    meeting::for_each_near_pair(own, by, other, [&](std::uint32_t e, std::uint32_t f) {
+      const Crossings::Pair pair{x, e, f};
+      found = crosses(pair);
+      if (!found) return true;
+      constexpr std::size_t kKept = 8;
+      if (pairs.size() == kKept) pairs.pop_back();
+      pairs.insert(pairs.begin(), pair);
+      return false;
+    });
+  }
+  return found;
 }
 
 bool intersects(const Polyhedron& a, const Polyhedron& b, const Rational3& translation, const Monitor& monitor) {

@@ -3,10 +3,13 @@
 // Whether two sets have a common point, one of them moved by a translation, without making their intersection.
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "nef/base/monitor.h"
 #include "nef/forward.h"
+#include "nef/number/approximation.h"
 #include "nef/number/number.h"
 
 namespace nef {
@@ -23,6 +26,26 @@ class IntersectionQuery {
   /// common point. Bounded sets: O(k log n) for k pairs of an edge and a facet whose boxes meet, and one point location
   /// for each connected part of a boundary that touches nothing; otherwise one Boolean operation.
   [[nodiscard]] bool meet(const Rational3& translation, const Monitor& monitor = {}) const;
+
+  /// Pairs of an edge and a facet that crossed lately, which are likely to cross at the next translation, too.
+  class Crossings {
+   public:
+    Crossings() = default;
+
+   private:
+    friend class IntersectionQuery;
+    struct Pair {
+      std::uint32_t of_edge = 0;  // 0: an edge of A and a facet of B; 1: the other way round
+      std::uint32_t edge = 0, facet = 0;
+    };
+    std::vector<Pair> pairs_;  // the latest first
+  };
+
+  /// True only if at each translation within the errors an edge of one set crosses the inside of a facet of the other
+  /// one: then the sets meet there, and a set with volume on one side of that facet, or beside that edge, does so with
+  /// its inside. In doubles; false tells nothing. If not `search`, only pairs in `recent` are tried, O(1); else all,
+  /// O(k log n) as above. `recent` is not to be shared between threads.
+  [[nodiscard]] bool surely_cross(const Approximation3& translation, Crossings& recent, bool search = true) const;
 
  private:
   struct Body;

@@ -172,7 +172,7 @@ class Search {
     const Rational3 foot = along(p, -t, normal);
     PointTable table;
     const PointRef at{&table, table.push(foot)};
-    if (locate_in_facet(side.c, facet, at, side.edges_of(f), monitor_).kind == FacetPlace::Kind::kOutside) return;
+    if (!locate_in_facet(side.c, f, at, side.edges_of(f), monitor_).valid()) return;
     offer(swapped ? NearestPair{std::move(squared), foot, p} : NearestPair{std::move(squared), p, foot});
   }
 

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/export/mesh_losses.h"
 
+#include "nef/base/counted.h"
+
 namespace nef {
 namespace {
-
-std::string counted(std::size_t count, const char* one, const char* many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
-}
 
 std::string listed(const ItemCounts& items) {
   std::string text;

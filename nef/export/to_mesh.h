@@ -18,8 +18,9 @@ namespace nef {
 struct MeshExportOptions {
   /// Keep facets without holes as polygons instead of cutting them into triangles.
   bool keep_polygons = false;
-  /// Of these only the strictly convex ones, which programs that cut polygons into fans get right, too.
-  bool only_convex = false;
+  /// Of these only strictly convex ones of at most four corners. Programs that cut polygons into fans get convex ones
+  /// right; with more corners, PrusaSlicer refuses an OBJ file, and Assimp leaves out faces of OFF with ten and more.
+  bool only_quads = false;
   /// A set without solid parts gives its surfaces, lines and points.
   bool lower_dimensional = false;
   /// If set, keep only polygons all of whose corners pass: ones that stay planar when they are written, say.

@@ -40,8 +40,11 @@ struct Box {
     }
   }
   [[nodiscard]] bool overlaps(const Box& other) const {
-    return low[0] <= other.high[0] && other.low[0] <= high[0] && low[1] <= other.high[1] && other.low[1] <= high[1] &&
-           low[2] <= other.high[2] && other.low[2] <= high[2];
+    unsigned meet = 1;  // without branches, which nobody could foresee
+    for (std::size_t i = 0; i < 3; ++i) {
+      meet &= static_cast<unsigned>(low[i] <= other.high[i]) & static_cast<unsigned>(other.low[i] <= high[i]);
+    }
+    return meet != 0;
   }
 };
 
@@ -91,28 +94,30 @@ class BoxTree {
   template <typename Visit>
   void for_each_pair(Visit&& visit) const {
     if (nodes_.empty()) return;
-    std::vector<std::array<std::uint32_t, 2>> stack{{0, 0}};
+    std::vector<std::array<std::uint32_t, 2>> stack{{0, 0}};  // of nodes that overlap
+    const auto push = [&](std::uint32_t m, std::uint32_t n) {
+      if (nodes_[m].box.overlaps(nodes_[n].box)) stack.push_back({m, n});
+    };
     while (!stack.empty()) {
       const auto [m, n] = stack.back();
       stack.pop_back();
       const Node& a = nodes_[m];
       const Node& b = nodes_[n];
-      if (m != n && !a.box.overlaps(b.box)) continue;
       if (a.count > 0 && b.count > 0) {
         visit_pairs(a, b, visit);
       } else if (m == n) {
-        stack.push_back({a.first, a.first + 1});
+        push(a.first, a.first + 1);
         stack.push_back({a.first, a.first});
         stack.push_back({a.first + 1, a.first + 1});
       } else if (a.count > 0) {
-        stack.push_back({m, b.first});
-        stack.push_back({m, b.first + 1});
+        push(m, b.first);
+        push(m, b.first + 1);
       } else if (b.count > 0) {
-        stack.push_back({a.first, n});
-        stack.push_back({a.first + 1, n});
+        push(a.first, n);
+        push(a.first + 1, n);
       } else {
         for (const std::uint32_t i : {0U, 1U}) {
-          for (const std::uint32_t j : {0U, 1U}) stack.push_back({a.first + i, b.first + j});
+          for (const std::uint32_t j : {0U, 1U}) push(a.first + i, b.first + j);
         }
       }
     }

@@ -56,9 +56,19 @@ PlaneId PlaneTable::find_or_add_last(Approximate&& approximate) {
   return PlaneId{candidate << 1U};
 }
 
-void PlaneTable::reserve(std::size_t planes) {
-  rows_.reserve(planes, 5);
+void PlaneTable::reserve(std::size_t planes, std::size_t limbs) {
+  rows_.reserve(planes, limbs);
   approximate_.reserve(planes);
+}
+
+void PlaneTable::keep(std::span<const std::uint8_t> used) {
+  slots_.clear();
+  rows_.keep(used);
+  std::size_t kept = 0;
+  for (std::size_t row = 0; row < used.size(); ++row) {
+    if (used[row] != 0) approximate_[kept++] = approximate_[row];
+  }
+  approximate_.resize(kept);
 }
 
 void PlaneTable::trim() {
@@ -190,30 +200,26 @@ void PlaneTable::append(const PlaneTable& other, std::size_t first, std::size_t 
 
 // Rows of one table are different, so that each equals at most one of the other. The smaller table is put into slots,
 // and the rows of the larger one are looked up.
-std::vector<std::uint32_t> PlaneTable::rows_of(const PlaneTable& other, unsigned threads,
-                                               const Monitor& monitor) const {
+std::vector<std::uint32_t> PlaneTable::rows_of(const PlaneTable& other, const Monitor& monitor) const {
   constexpr std::size_t kTogether = 4096;
   std::vector<std::uint32_t> result(other.size(), kNotHere);
   const bool other_is_smaller = other.size() < size();
   const IntegerRows& few = other_is_smaller ? other.rows_ : rows_;
   const IntegerRows& many = other_is_smaller ? rows_ : other.rows_;
   std::vector<std::uint32_t> hashes(few.size());
-  parallel_for_ranges(few.size(), kTogether, threads, monitor,
-                      [&](std::size_t first, std::size_t last, const Monitor&) {
-                        for (auto row = static_cast<std::uint32_t>(first); row < last; ++row)
-                          hashes[row] = RowSlots::hash_of(few, row);
-                      });
+  parallel_for_ranges(few.size(), kTogether, monitor, [&](std::size_t first, std::size_t last, const Monitor&) {
+    for (auto row = static_cast<std::uint32_t>(first); row < last; ++row) hashes[row] = RowSlots::hash_of(few, row);
+  });
   RowSlots slots;
   slots.reserve(few.size());
   for (std::uint32_t row = 0; row < few.size(); ++row) slots.add_new(row, hashes[row]);
-  parallel_for_ranges(
-      many.size(), kTogether, threads, monitor, [&](std::size_t first, std::size_t last, const Monitor&) {
-        for (auto row = static_cast<std::uint32_t>(first); row < last; ++row) {
-          const RowSlots::Slot& equal = std::as_const(slots).find(few, RowSlots::hash_of(many, row), many, row);
-          if (equal.empty()) continue;
-          (other_is_smaller ? result[equal.row] : result[row]) = other_is_smaller ? row : equal.row;
-        }
-      });
+  parallel_for_ranges(many.size(), kTogether, monitor, [&](std::size_t first, std::size_t last, const Monitor&) {
+    for (auto row = static_cast<std::uint32_t>(first); row < last; ++row) {
+      const RowSlots::Slot& equal = std::as_const(slots).find(few, RowSlots::hash_of(many, row), many, row);
+      if (equal.empty()) continue;
+      (other_is_smaller ? result[equal.row] : result[row]) = other_is_smaller ? row : equal.row;
+    }
+  });
   return result;
 }
 

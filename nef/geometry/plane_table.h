@@ -45,9 +45,8 @@ class PlaneTable {
   /// The same for `count` consecutive planes, from row `first` on.
   void append_new(const PlaneTable& other, std::size_t first, std::size_t count);
 
-  /// For each plane of another table its row in this one, or kNotHere. On up to `threads` threads. O(planes of both).
-  [[nodiscard]] std::vector<std::uint32_t> rows_of(const PlaneTable& other, unsigned threads,
-                                                   const Monitor& monitor) const;
+  /// For each plane of another table its row in this one, or kNotHere. On the threads of `monitor`. O(planes of both).
+  [[nodiscard]] std::vector<std::uint32_t> rows_of(const PlaneTable& other, const Monitor& monitor) const;
   static constexpr std::uint32_t kNotHere = 0xffffffffU;
 
   /// Appends those planes of the other table that rows_of() has not found here, in their order, and fills their rows
@@ -83,7 +82,13 @@ class PlaneTable {
 
   [[nodiscard]] std::size_t bytes() const;
 
-  void reserve(std::size_t planes);
+  /// Makes room for this many planes of this many limbs each on average.
+  void reserve(std::size_t planes, std::size_t limbs = 5);
+  /// Of a plane, on average, rounded up.
+  [[nodiscard]] std::size_t limbs_per_plane() const { return rows_.limbs_per_row(); }
+
+  /// Keeps the planes with used[row] other than 0, in their order, without a copy of the table. O(planes).
+  void keep(std::span<const std::uint8_t> used);
 
   /// Gives memory back that nothing needs until a plane is looked for, or that has been reserved and not used.
   void trim();

@@ -106,6 +106,8 @@ class PointTable {
   void reserve(std::size_t points, std::size_t limbs = 4);
   /// Of all coordinates together.
   [[nodiscard]] std::size_t limbs() const { return rows_.limbs(); }
+  /// Of a point, on average, rounded up.
+  [[nodiscard]] std::size_t limbs_per_point() const { return rows_.limbs_per_row(); }
 
   /// Gives memory back that has been reserved and not used.
   void trim();

@@ -15,6 +15,11 @@ namespace nef {
 using Double3 = std::array<double, 3>;
 
 template <class Number>
+std::array<Number, 3> plus(const std::array<Number, 3>& a, const std::array<Number, 3>& b) {
+  return {Number(a[0] + b[0]), Number(a[1] + b[1]), Number(a[2] + b[2])};
+}
+
+template <class Number>
 std::array<Number, 3> minus(const std::array<Number, 3>& a, const std::array<Number, 3>& b) {
   return {Number(a[0] - b[0]), Number(a[1] - b[1]), Number(a[2] - b[2])};
 }

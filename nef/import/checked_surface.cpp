@@ -3,9 +3,6 @@
 
 #include <algorithm>
 
-#include "nef/base/error.h"
-#include "nef/mesh/mesh_check.h"
-
 namespace nef {
 namespace {
 
@@ -19,42 +16,37 @@ bool is_resolved(const MeshProblem& problem, Crossings rule) {
     case MeshProblemKind::kOpenBorder:
     case MeshProblemKind::kNonManifoldEdge:
     case MeshProblemKind::kInconsistentOrientation:
-      return problem.balance == EdgeBalance::kBalanced || rule == Crossings::kOutside ||
+      return problem.balance == EdgeBalance::kBalanced || rule == Crossings::kOutside || rule == Crossings::kGuess ||
              (rule == Crossings::kOdd && problem.balance == EdgeBalance::kEven);
     default:
       return true;
   }
 }
 
-// Of a mesh that is refused: what the user can do about it.
-std::string with_advice(const MeshProblem& refused, const Mesh& mesh, const MeshSurface& surface,
-                        const Monitor& monitor) {
-  std::vector<FaceContact> contacts;
-  const MeshCheckOptions all{.max_per_kind = 1, .self_intersections = true};
-  for (const MeshProblem& problem : check_mesh(mesh, surface, all, monitor, &contacts)) {
-    if (!problem.legal && !is_resolved(problem, Crossings::kUnion)) return refused.text;
-  }
-  const std::size_t pairs = count_crossings(contacts);
-  std::string text = refused.text;
-  if (pairs > 1) text += "; " + crossing_text(pairs);
-  return text + advice_to_unite();
+// What the user can do about a problem that no rule for crossings has an answer to.
+const char* advice_to_repair(MeshProblemKind kind) {
+  if (kind == MeshProblemKind::kOpenBorder) return "; --close (close=10 in Python) closes holes with lids, a guess";
+  if (kind == MeshProblemKind::kInconsistentOrientation) return "; nef repair turns faces to fit their neighbours";
+  return "";
 }
 
 }  // namespace
 
 std::string advice_to_unite() { return std::string("; crossings=\"union\" takes ") + taken_by(Crossings::kUnion); }
 
-CheckedSurface::CheckedSurface(const Mesh& mesh, Extent extent, Crossings rule, const Monitor& monitor) : mesh_(&mesh) {
+CheckedSurface::CheckedSurface(const Mesh& mesh, Extent extent, Crossings rule, const Monitor& monitor,
+                               KnownContacts known)
+    : mesh_(&mesh), extent_(extent), rule_(rule), contacts_(std::move(known)) {
   monitor.tell_progress("faces of the mesh", 0, 0);
   surface_ = std::make_unique<const MeshSurface>(mesh, monitor);
   monitor.tell_progress("self-intersections", 0, 0);
   const MeshCheckOptions first{
       .max_per_kind = 1, .self_intersections = extent == Extent::kAll, .only_verdict = rule == Crossings::kRefuse};
-  for (const MeshProblem& problem : check_mesh(mesh, *surface_, first, monitor, &contacts_)) {
+  problems_ = check_mesh(mesh, *surface_, first, monitor, &contacts_);
+  for (const MeshProblem& problem : problems_) {
     if (!problem.legal && !is_resolved(problem, rule)) {
-      throw InputError(rule == Crossings::kRefuse && extent == Extent::kAll
-                           ? with_advice(problem, mesh, *surface_, monitor)
-                           : problem.text);
+      refused_ = &problem;
+      return;
     }
     in_contact_ = in_contact_ || !problem.legal || problem.kind == MeshProblemKind::kTouching ||
                   problem.kind == MeshProblemKind::kDuplicateFace;
@@ -64,6 +56,20 @@ CheckedSurface::CheckedSurface(const Mesh& mesh, Extent extent, Crossings rule, 
       static_cast<std::size_t>(std::count(surface_->defects.begin(), surface_->defects.end(), FaceDefect::kNoArea));
   // Without a face that has no area, its neighbours meet in parts of edges.
   in_contact_ = in_contact_ || faces_without_area_ > 0;
+}
+
+void CheckedSurface::require_legal(const Monitor& monitor) {
+  if (!is_refused()) return;
+  if (rule_ != Crossings::kRefuse || extent_ != Extent::kAll) {
+    throw RefusedMesh(refused_->text, advice_to_repair(refused_->kind));
+  }
+  for (const MeshProblem& problem : problems_) {
+    if (problem.legal || is_resolved(problem, Crossings::kUnion)) continue;
+    throw RefusedMesh(refused_->text, advice_to_repair(problem.kind));
+  }
+  if (!contacts_) contacts_ = face_contacts(*surface_, SurfaceContacts(*surface_, monitor));
+  const std::size_t pairs = count_crossings(*contacts_);
+  throw RefusedMesh(refused_->text, (pairs > 1 ? "; " + crossing_text(pairs) : "") + advice_to_unite());
 }
 
 }  // namespace nef

@@ -36,7 +36,7 @@ Polyhedron overlay_all(std::vector<Polyhedron> sets, Covering covering, const Me
     const std::size_t large = waiting.top();
     waiting.pop();
     // The first operand's vertices come first and are copied in long runs.
-    sets[large] = overlay(sets[large], sets[small], join, options.threads, options.monitor);
+    sets[large] = overlay(sets[large], sets[small], join, options.monitor);
     sets[small] = Polyhedron();
     waiting.push(large);
   }
@@ -50,15 +50,19 @@ int net_of_mark(LabelId mark) {
   return mark % 2 == 1 ? half : -half;
 }
 
-Polyhedron arrange_faces(const Mesh& mesh, const MeshSurface& surface, std::span<const FaceContact> contacts,
-                         Covering covering, const MeshOptions& options, Messages* messages) {
+Polyhedron arrange_faces(const Mesh& mesh, std::unique_ptr<const MeshSurface> surface,
+                         std::span<const FaceContact> contacts, Covering covering, const MeshOptions& options,
+                         Messages* messages) {
   std::vector<bool> left_out(mesh.face_count(), false);
-  for (std::size_t f = 0; f < left_out.size(); ++f) left_out[f] = surface.defects[f] != FaceDefect::kNone;
-  MeshFaces faces(mesh, surface, options, messages);
+  for (std::size_t f = 0; f < left_out.size(); ++f) left_out[f] = surface->defects[f] != FaceDefect::kNone;
   std::vector<Polyhedron> parts;
-  for (const std::vector<std::uint32_t>& group : contact_groups(contacts, left_out)) {
-    parts.emplace_back(covering == Covering::kSigned ? faces.oriented_surface(group) : faces.surface(group));
+  {
+    MeshFaces faces(mesh, *surface, options, messages);
+    for (const std::vector<std::uint32_t>& group : contact_groups(contacts, left_out)) {
+      parts.emplace_back(covering == Covering::kSigned ? faces.oriented_surface(group) : faces.surface(group));
+    }
   }
+  surface.reset();
   return parts.empty() ? Polyhedron() : overlay_all(std::move(parts), covering, options);
 }
 

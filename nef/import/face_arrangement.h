@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 
 #include "nef/construct/construct.h"
@@ -25,8 +26,10 @@ int net_of_mark(LabelId mark);
 /// is none; its plane is unflipped. Edges and vertices have marks that mean nothing. Faces in contact are put into
 /// groups (`contact_groups`), each group is built from the corners of its faces, and the groups are overlaid, smallest
 /// first, while their coverings are added: so planes and points of faces without contacts are never compared.
-/// No face may be in contact with itself; faces with defects are left out. `messages` may be null.
-Polyhedron arrange_faces(const Mesh& mesh, const MeshSurface& surface, std::span<const FaceContact> contacts,
-                         Covering covering, const MeshOptions& options, Messages* messages);
+/// No face may be in contact with itself; faces with defects are left out. The surface is that of the mesh, and is gone
+/// before the groups are overlaid, which takes as much room. `messages` may be null.
+Polyhedron arrange_faces(const Mesh& mesh, std::unique_ptr<const MeshSurface> surface,
+                         std::span<const FaceContact> contacts, Covering covering, const MeshOptions& options,
+                         Messages* messages);
 
 }  // namespace nef

@@ -10,10 +10,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "nef/base/error.h"
 #include "nef/complex/local_pyramid.h"
 #include "nef/complex/rewrite_sphere_maps.h"
+#include "nef/import/checked_surface.h"
+#include "nef/import/generalized_winding.h"
 #include "nef/import/mesh_faces.h"
 #include "nef/mesh/polygon/perturbed_turn.h"
 #include "nef/mesh/polygon/triangulate.h"
@@ -28,22 +31,44 @@ constexpr LabelId kIdle = 2;
 
 LabelId without_idle(LabelId mark, LabelId /*of nothing*/) { return mark % kIdle; }
 
+// How often the volume below a facet is wound around more than the one above.
+int change_below(const Facet& facet, Covering covering) {
+  return covering == Covering::kSigned ? net_of_mark(facet.mark) : 1;
+}
+
+int winding_beyond(int winding, int change, Covering covering) {
+  switch (covering) {
+    case Covering::kSigned:
+      return winding + change;
+    case Covering::kParity:
+      return 1 - winding;
+    case Covering::kAny:
+      break;
+  }
+  return 1;
+}
+
 class WindingFiller {
  public:
-  WindingFiller(const Polyhedron& faces, const Mesh& mesh, const MeshSurface& surface, const FillOptions& options)
-      : c_(faces.complex()), mesh_(mesh), surface_(surface), options_(options) {}
+  WindingFiller(Polyhedron faces, const Mesh& mesh, const FillOptions& options)
+      : faces_(std::move(faces)), mesh_(mesh), options_(options) {}
 
   FilledMesh run() {
-    find_windings();
+    if (options_.rule == Crossings::kGuess) {
+      guess_windings();
+    } else {
+      find_windings();
+    }
     const auto [low, high] = std::minmax_element(winding_.begin(), winding_.end());
     FilledMesh result;
     result.lowest = *low;
     result.highest = *high;
-    if (*low == 0 && *high == 0) throw InputError(kEnclosesNothing);
+    if (*low == 0 && *high == 0) refuse_as_empty();
     if (options_.rule == Crossings::kRefuse) check_windings(*low, *high);
-    if (options_.measure != Measure::kNot) result.volumes = volumes();
-    result.set = fill();
-    if (result.set.is_empty()) throw InputError(kEnclosesNothing);
+    Complex filled = std::move(faces_).take_complex();  // as large as what is made of it
+    if (options_.measure != Measure::kNot) result.volumes = volumes(filled);
+    result.set = fill(std::move(filled));
+    if (result.set.is_empty()) refuse_as_empty();
     return result;
   }
 
@@ -56,20 +81,20 @@ class WindingFiller {
 
   // The middle of one of the triangles that a facet can be cut into.
   [[nodiscard]] Rational3 inner_point(FacetId f, Triangulator& triangulator) const {
-    const Facet& facet = c_.facets[f];
+    const Facet& facet = c().facets[f];
     std::vector<std::vector<std::uint32_t>> rings;
     for (const CycleId i : facet.cycles()) {
       std::vector<std::uint32_t>& ring = rings.emplace_back();
-      for (const SHalfedgeId corner : c_.corners_of(i)) ring.push_back(point_of(c_.shalfedge_vertex(corner)).index());
+      for (const SHalfedgeId corner : c().corners_of(i)) ring.push_back(point_of(c().shalfedge_vertex(corner)).index());
     }
     std::vector<Triangulator::Triangle> triangles;
     const std::size_t axis = largest_component(facet.plane);
-    const int up = c_.planes.coefficient(facet.plane, axis).sign();
+    const int up = c().planes.coefficient(facet.plane, axis).sign();
     const bool done = triangulator.triangulate(rings, axis, up, triangles);
     NEF_ASSERT(done && !triangles.empty());
     Rational3 middle;
     for (const std::uint32_t v : triangles[0]) {
-      const Rational3 corner = c_.points.rational(PointId{v});
+      const Rational3 corner = c().points.rational(PointId{v});
       for (std::size_t i = 0; i < 3; ++i) middle[i] += corner[i] / 3;
     }
     return middle;
@@ -77,26 +102,27 @@ class WindingFiller {
 
   // A face that covers a facet, to name in a message. O(n).
   [[nodiscard]] std::uint32_t face_on(FacetId f) const {
-    const PlaneId plane = c_.facets[f].plane;
+    const PlaneId plane = c().facets[f].plane;
     const std::size_t axis = largest_component(plane);
-    const MeshPoints points(c_.points);
+    const MeshPoints points(c().points);
     Triangulator triangulator(points, options_.monitor);
     const Rational3 point = inner_point(f, triangulator);
-    for (std::uint32_t t = 0; t < surface_.triangles.size(); ++t) {
-      const Rational3& a = mesh_.vertices[surface_.triangles[t][0]];
-      const Rational3& b = mesh_.vertices[surface_.triangles[t][1]];
-      const Rational3& c = mesh_.vertices[surface_.triangles[t][2]];
+    const MeshSurface surface(mesh_, options_.monitor);
+    for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
+      const Rational3& a = mesh_.vertices[surface.triangles[t][0]];
+      const Rational3& b = mesh_.vertices[surface.triangles[t][1]];
+      const Rational3& c = mesh_.vertices[surface.triangles[t][2]];
       if (!on_plane(plane, a) || !on_plane(plane, b) || !on_plane(plane, c)) continue;
       const int first = perturbed_turn(a, b, point, axis);
       if (perturbed_turn(b, c, point, axis) == first && perturbed_turn(c, a, point, axis) == first) {
-        return surface_.face_of[t];
+        return surface.face_of[t];
       }
     }
     throw std::logic_error("internal error, please report: a facet that no face covers");
   }
 
   [[nodiscard]] std::size_t largest_component(PlaneId plane) const {
-    const auto& normal = c_.planes.approximate(plane);
+    const auto& normal = c().planes.approximate(plane);
     std::size_t axis = 0;
     for (std::size_t i = 1; i < 3; ++i) {
       if (std::abs(normal[i]) > std::abs(normal[axis])) axis = i;
@@ -105,67 +131,61 @@ class WindingFiller {
   }
 
   [[nodiscard]] bool on_plane(PlaneId plane, const Rational3& p) const {
-    Rational sum = Rational(Integer(c_.planes.coefficient(plane, 3)));
-    for (std::size_t i = 0; i < 3; ++i) sum += Rational(Integer(c_.planes.coefficient(plane, i))) * p[i];
+    Rational sum = Rational(Integer(c().planes.coefficient(plane, 3)));
+    for (std::size_t i = 0; i < 3; ++i) sum += Rational(Integer(c().planes.coefficient(plane, i))) * p[i];
     return sum == 0;
   }
 
-  // How often the volume below a facet is wound around more than the one above.
-  [[nodiscard]] int change(const Facet& facet) const {
-    return options_.covering == Covering::kSigned ? net_of_mark(facet.mark) : 1;
-  }
+  [[nodiscard]] const Complex& c() const { return faces_.complex(); }
 
-  [[nodiscard]] int beyond(int winding, int change) const {
-    switch (options_.covering) {
-      case Covering::kSigned:
-        return winding + change;
-      case Covering::kParity:
-        return 1 - winding;
-      case Covering::kAny:
-        break;
-    }
-    return 1;
-  }
-
-  // Breadth first through the facets, from the outer volume.
   void find_windings() {
-    struct Step {
-      VolumeId to;
-      int change = 0;
-    };
-    IndexedVector<VolumeId, std::vector<Step>> steps(c_.volumes.size());
-    for (const Facet& facet : c_.facets) {
-      if (facet.volume_above == facet.volume_below) continue;
-      steps[facet.volume_above].push_back({facet.volume_below, change(facet)});
-      steps[facet.volume_below].push_back({facet.volume_above, -change(facet)});
-    }
-    IndexedVector<VolumeId, bool> known(c_.volumes.size(), false);
-    winding_.assign(c_.volumes.size(), 0);
-    known[kOuterVolume] = true;
-    std::vector<VolumeId> queue{kOuterVolume};
-    for (std::size_t i = 0; i < queue.size(); ++i) {
-      for (const auto& [to, change] : steps[queue[i]]) {
-        const int winding = beyond(winding_[queue[i]], change);
-        if (!known[to]) {
-          known[to] = true;
-          winding_[to] = winding;
-          queue.push_back(to);
-        } else if (winding_[to] != winding && options_.covering != Covering::kAny) {
-          throw InputError("the mesh is not closed: its faces do not separate inside from outside");
-        }
-      }
-    }
-    NEF_ASSERT(queue.size() == c_.volumes.size());  // only facets separate volumes
+    std::optional<IndexedVector<VolumeId, int>> found = winding_numbers(c(), options_.covering);
+    if (!found) throw InputError("the mesh is not closed: its faces do not separate inside from outside");
+    winding_ = *std::move(found);
     if (options_.inside_out) {
       for (int& winding : winding_) winding = -winding;
     }
   }
 
+  // By the mean of some points inside of each volume, each in the middle between two facets.
+  void guess_windings() {
+    constexpr int kSamples = 4;
+    const GeneralizedWinding faces(mesh_, MeshSurface(mesh_, options_.monitor).triangles);
+    const MeshPoints points(c().points);
+    Triangulator triangulator(points, options_.monitor);
+    IndexedVector<VolumeId, int> count(c().volumes.size(), 0);
+    IndexedVector<VolumeId, double> sum(c().volumes.size(), 0);
+    for (const FacetId f : c().facets.ids()) {
+      const Facet& facet = c().facets[f];
+      for (const auto& [volume, side] : {std::pair(facet.volume_above, 1), std::pair(facet.volume_below, -1)}) {
+        if (volume == kOuterVolume || count[volume] == kSamples) continue;
+        const Rational3 from = inner_point(f, triangulator);
+        Rational3 direction;
+        for (std::size_t i = 0; i < 3; ++i) {
+          direction[i] = Rational(Integer(c().planes.coefficient(facet.plane, i))) * side;
+        }
+        const std::optional<RayHit> hit = shoot_ray(faces_, from, direction, {}, options_.monitor);
+        NEF_ASSERT(hit);  // the volume is bounded
+        Rational3 middle;
+        for (std::size_t i = 0; i < 3; ++i) middle[i] = (from[i] + hit->point[i]) / 2;
+        sum[volume] += faces.around(middle);
+        ++count[volume];
+      }
+    }
+    winding_.assign(c().volumes.size(), 0);
+    const double sign = options_.inside_out ? -1 : 1;
+    for (const VolumeId v : c().volumes.ids()) winding_[v] = count[v] > 0 && 2 * sign * sum[v] >= count[v] ? 1 : 0;
+  }
+
+  [[noreturn]] static void refuse_as_empty() {
+    throw RefusedMesh(kEnclosesNothing, "; --as-surface (surface=True in Python) takes them as a surface");
+  }
+
   // Names a face that bounds a volume of a winding number that must not be.
   template <typename Wrong>
   [[noreturn]] void refuse(Wrong wrong) const {
-    for (const FacetId f : c_.facets.ids()) {
-      const Facet& facet = c_.facets[f];
+    for (const FacetId f : c().facets.ids()) {
+      const Facet& facet = c().facets[f];
       const int above = winding_[facet.volume_above];
       const int below = winding_[facet.volume_below];
       if (wrong(above) == wrong(below)) continue;
@@ -183,11 +203,11 @@ class WindingFiller {
     throw std::logic_error("internal error, please report: a winding number that no facet bounds");
   }
 
-  [[nodiscard]] std::map<int, WindingVolume> volumes() const {
+  // The marks of the volumes are lost.
+  [[nodiscard]] std::map<int, WindingVolume> volumes(Complex& marked) const {
     std::map<int, WindingVolume> result;
     for (const int winding : winding_) ++result[winding].parts;
     --result[0].parts;  // the outer volume
-    Complex marked = c_;
     for (auto& [winding, entry] : result) {
       for (const VolumeId v : marked.volumes.ids()) {
         marked.volumes[v].mark = v != kOuterVolume && winding_[v] == winding ? 1 : 0;
@@ -195,14 +215,13 @@ class WindingFiller {
       if (options_.measure == Measure::kExactly) {
         entry.volume = nef::volume(marked).value();
       } else {
-        entry.measured = approximate_volume(Polyhedron(Complex(marked)), options_.threads, options_.monitor);
+        entry.measured = approximate_volume(marked, options_.monitor);
       }
     }
     return result;
   }
 
-  Polyhedron fill() {
-    Complex filled = c_;
+  Polyhedron fill(Complex&& filled) {
     idle_ = false;
     for (const VolumeId v : filled.volumes.ids()) {
       filled.volumes[v].mark = v != kOuterVolume && is_taken(options_.rule, winding_[v]) ? 1 : 0;
@@ -211,7 +230,7 @@ class WindingFiller {
       for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) {
         map.sfaces[f].mark = filled.volumes[filled.sface_volume(filled.vertices[v].sfaces + f)].mark;
       }
-      mark_between(map);
+      mark_between(filled.planes, map);
     });
     filled.facets.assign_marks([&filled](FacetId f) {
       const FacetSides sides = filled.facets.sides_of(f);
@@ -220,13 +239,13 @@ class WindingFiller {
     filled.label_count = idle_ ? 2 * kIdle : 2;
     Polyhedron marked(std::move(filled));
     if (!idle_) return marked;
-    return overlay(marked, Polyhedron(), without_idle, options_.threads, options_.monitor);
+    return overlay(marked, Polyhedron(), without_idle, options_.monitor);
   }
 
   static LabelId between(LabelId a, LabelId b) { return a == b ? kIdle + a : 1; }
 
   // Gives all that lies between the sfaces its mark.
-  void mark_between(SphereMapBuffer& map) {
+  void mark_between(const PlaneTable& planes, SphereMapBuffer& map) {
     for (std::uint32_t e = 0; e < map.shalfedges.size(); e += 2) {
       const LabelId mark =
           between(map.sfaces[map.shalfedges[e].sface].mark, map.sfaces[map.shalfedges[e + 1].sface].mark);
@@ -244,7 +263,7 @@ class WindingFiller {
     map.mark = map.sfaces[0].mark;
     for (const SFace& face : map.sfaces) map.mark = map.mark == face.mark ? map.mark : LabelId{kIdle};
     map.mark = map.mark == kIdle ? 1 : kIdle + map.mark;
-    if (map.mark == 1 && !is_vertex(c_.planes, map.view(), options_.monitor)) map.mark = kIdle + 1;
+    if (map.mark == 1 && !is_vertex(planes, map.view(), options_.monitor)) map.mark = kIdle + 1;
     idle_ = idle_ || map.mark >= kIdle;
   }
 
@@ -267,9 +286,8 @@ class WindingFiller {
     return arcs == 2 && one_plane ? kIdle + 1 : 1;
   }
 
-  const Complex& c_;
+  Polyhedron faces_;  // until they are filled
   const Mesh& mesh_;
-  const MeshSurface& surface_;
   FillOptions options_;
   IndexedVector<VolumeId, int> winding_;
   bool idle_ = false;  // there is something with the same on all sides
@@ -277,9 +295,40 @@ class WindingFiller {
 
 }  // namespace
 
-FilledMesh fill_by_winding(const Polyhedron& faces, const Mesh& mesh, const MeshSurface& surface,
-                           const FillOptions& options) {
-  return WindingFiller(faces, mesh, surface, options).run();
+std::optional<IndexedVector<VolumeId, int>> winding_numbers(const Complex& faces, Covering covering) {
+  struct Step {
+    VolumeId to;
+    int change = 0;
+  };
+  IndexedVector<VolumeId, std::vector<Step>> steps(faces.volumes.size());
+  for (const Facet& facet : faces.facets) {
+    if (facet.volume_above == facet.volume_below) continue;
+    const int change = change_below(facet, covering);
+    steps[facet.volume_above].push_back({facet.volume_below, change});
+    steps[facet.volume_below].push_back({facet.volume_above, -change});
+  }
+  IndexedVector<VolumeId, bool> known(faces.volumes.size(), false);
+  IndexedVector<VolumeId, int> result(faces.volumes.size(), 0);
+  known[kOuterVolume] = true;
+  std::vector<VolumeId> queue{kOuterVolume};
+  for (std::size_t i = 0; i < queue.size(); ++i) {
+    for (const auto& [to, change] : steps[queue[i]]) {
+      const int winding = winding_beyond(result[queue[i]], change, covering);
+      if (!known[to]) {
+        known[to] = true;
+        result[to] = winding;
+        queue.push_back(to);
+      } else if (result[to] != winding && covering != Covering::kAny) {
+        return std::nullopt;
+      }
+    }
+  }
+  NEF_ASSERT(queue.size() == faces.volumes.size());  // only facets separate volumes
+  return result;
+}
+
+FilledMesh fill_by_winding(Polyhedron faces, const Mesh& mesh, const FillOptions& options) {
+  return WindingFiller(std::move(faces), mesh, options).run();
 }
 
 }  // namespace nef

@@ -3,6 +3,7 @@
 // Meshes to solids, in three steps of which each takes what the one before has made: mesh -> checked surface -> solid.
 // The check merges equal vertices and cuts faces into triangles; a clean surface becomes a solid by drawing each
 // vertex's sphere map from the corners of the faces around it, one in contact by winding numbers.
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -16,6 +17,7 @@
 #include "nef/import/fill.h"
 #include "nef/import/from_surface.h"
 #include "nef/import/mesh_faces.h"
+#include "nef/import/repair.h"
 #include "nef/import/resolve_mesh.h"
 #include "nef/import/split_faces.h"
 #include "nef/import/try_from_mesh.h"
@@ -83,6 +85,7 @@ Covering covering_for(Crossings rule) {
     case Crossings::kOdd:
       return Covering::kParity;
     case Crossings::kOutside:
+    case Crossings::kGuess:
       return Covering::kAny;
     case Crossings::kRefuse:
     case Crossings::kUnion:
@@ -98,33 +101,25 @@ void note_faces_without_area(const CheckedSurface& checked, Messages* messages) 
   messages->push_back(std::to_string(count) + (count == 1 ? " face" : " faces") + " without area left out");
 }
 
-// One line about what a rule had to decide.
-void note_rule(const ResolvedMesh& made, const FilledMesh& filled, Crossings rule, Messages* messages) {
-  if (messages == nullptr || rule == Crossings::kRefuse) return;
-  const std::size_t pairs = made.crossing_pairs;
-  if (pairs == 0 && filled.lowest >= 0 && filled.highest <= 1) return;
-  const std::string what =
-      pairs == 0 ? "the mesh encloses parts of space several times or inside out" : crossing_text(pairs);
-  messages->push_back(what + ": " + taken_by(rule) + " was taken");
-}
-
 // By the winding numbers of the volumes between the faces.
-ResolvedMesh arranged(const Mesh& mesh, const MeshSurface& surface, std::span<const FaceContact> contacts,
-                      const FillOptions& fill, const MeshOptions& options, Messages* messages) {
-  if (const std::optional<Mesh> split = split_faces(mesh, surface, contacts)) {
-    const MeshSurface triangles(*split, options.monitor);
-    return arranged(*split, triangles, face_contacts(triangles, SurfaceContacts(triangles, options.monitor)), fill,
-                    options, messages);
+ResolvedMesh arranged(const Mesh& mesh, CheckedSurface::Found found, const FillOptions& fill,
+                      const MeshOptions& options, Messages* messages) {
+  if (const std::optional<Mesh> split = split_faces(mesh, *found.surface, found.contacts)) {
+    found.surface = std::make_unique<const MeshSurface>(*split, options.monitor);
+    found.contacts = face_contacts(*found.surface, SurfaceContacts(*found.surface, options.monitor));
+    return arranged(*split, std::move(found), fill, options, messages);
   }
-  FilledMesh filled =
-      fill_by_winding(arrange_faces(mesh, surface, contacts, fill.covering, options, messages), mesh, surface, fill);
+  FilledMesh filled = fill_by_winding(
+      arrange_faces(mesh, std::move(found.surface), found.contacts, fill.covering, options, messages), mesh, fill);
   ResolvedMesh result;
-  result.crossing_pairs = count_crossings(contacts);
+  result.is_arranged = true;
+  result.crossing_pairs = count_crossings(found.contacts);
   // Without a rule, a mesh may be inside out as a whole and nothing else.
   result.inside_out = fill.inside_out || (fill.rule == Crossings::kRefuse && filled.lowest < 0);
   if (result.inside_out && messages != nullptr) messages->emplace_back(kTurnedOver);
-  note_rule(result, filled, fill.rule, messages);
   result.set = std::move(filled.set);
+  result.lowest = result.inside_out && !fill.inside_out ? -filled.highest : filled.lowest;
+  result.highest = result.inside_out && !fill.inside_out ? -filled.lowest : filled.highest;
   result.volumes = std::move(filled.volumes);
   return result;
 }
@@ -136,21 +131,24 @@ WindingVolume measured(const Polyhedron& set, Measure measure, const MeshOptions
   if (measure == Measure::kExactly) {
     result.volume = volume(set).value();
   } else {
-    result.measured = approximate_volume(set, options.threads, options.monitor);
+    result.measured = approximate_volume(set, options.monitor);
   }
   return result;
 }
 
-ResolvedMesh solid(CheckedSurface&& checked, const MeshOptions& options, Messages* messages, Measure measure) {
+}  // namespace
+
+ResolvedMesh resolve_mesh(CheckedSurface&& checked, const MeshOptions& options, Messages* messages, Measure measure) {
+  checked.require_legal(options.monitor);
   note_faces_without_area(checked, messages);
   const FillOptions fill{.rule = options.crossings,
                          .covering = covering_for(options.crossings),
                          .inside_out = checked.inside_out() && options.crossings != Crossings::kRefuse,
                          .measure = measure,
-                         .threads = options.threads,
                          .monitor = options.monitor};
   if (checked.in_contact()) {
-    return arranged(checked.mesh(), checked.surface(), checked.contacts(), fill, options, messages);
+    const Mesh& mesh = checked.mesh();
+    return arranged(mesh, std::move(checked).take(), fill, options, messages);
   }
   ResolvedMesh result;
   result.inside_out = checked.inside_out();
@@ -163,12 +161,16 @@ ResolvedMesh solid(CheckedSurface&& checked, const MeshOptions& options, Message
     return result;
   }
   if (options.crossings == Crossings::kRefuse) refuse_components(checked.mesh(), options.monitor);
-  return arranged(checked.mesh(), MeshSurface(checked.mesh(), options.monitor), {}, fill, options, messages);
+  return arranged(checked.mesh(), {std::make_unique<const MeshSurface>(checked.mesh(), options.monitor), {}}, fill,
+                  options, messages);
 }
+
+namespace {
 
 // Without the search for contacts, if that is enough.
 std::optional<Polyhedron> promised_solid(const Mesh& mesh, const MeshOptions& options, Messages* messages) {
   CheckedSurface checked(mesh, CheckedSurface::Extent::kNoCrossings, options.crossings, options.monitor);
+  checked.require_legal(options.monitor);
   if (checked.in_contact()) return std::nullopt;
   return solid_of_promised(std::move(checked), options, messages);
 }
@@ -191,17 +193,31 @@ Polyhedron from_mesh(const Mesh& mesh, const MeshOptions& options, Messages* mes
   if (options.as_surface) {
     return from_surface(mesh, MeshSurface(mesh, options.monitor), options, messages);
   }
+  if (options.close_percent > 0) return repaired_solid(mesh, options, messages);
   Messages notes;
   std::optional<Polyhedron> result;
   if (!options.check) result = promised_solid(mesh, options, &notes);
   if (!result) {
     notes.clear();
-    result = solid(CheckedSurface(mesh, CheckedSurface::Extent::kAll, options.crossings, options.monitor), options,
-                   &notes, Measure::kNot)
-                 .set;
+    ResolvedMesh resolved = resolve_mesh(mesh, options, &notes, Measure::kNot);
+    if (std::string decided = note_about(resolved, options.crossings); !decided.empty()) {
+      notes.push_back(std::move(decided));
+    }
+    result = std::move(resolved.set);
   }
   if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
   return *std::move(result);
+}
+
+std::string note_about(const ResolvedMesh& resolved, Crossings rule) {
+  if (rule == Crossings::kRefuse) return "";
+  const std::size_t pairs = resolved.crossing_pairs;
+  const bool is_guess = rule == Crossings::kGuess && resolved.is_arranged;
+  if (pairs == 0 && resolved.lowest >= 0 && resolved.highest <= 1 && !is_guess) return "";
+  const std::string what = pairs > 0  ? crossing_text(pairs)
+                           : is_guess ? "the mesh may have holes"
+                                      : "the mesh encloses parts of space several times or inside out";
+  return what + ": " + taken_by(rule) + " was taken";
 }
 
 ResolvedMesh resolve_mesh(const Mesh& mesh, const MeshOptions& options, Messages* messages, Measure measure) {
@@ -210,8 +226,8 @@ ResolvedMesh resolve_mesh(const Mesh& mesh, const MeshOptions& options, Messages
     empty.set = without_faces(mesh, messages);
     return empty;
   }
-  return solid(CheckedSurface(mesh, CheckedSurface::Extent::kAll, options.crossings, options.monitor), options,
-               messages, measure);
+  return resolve_mesh(CheckedSurface(mesh, CheckedSurface::Extent::kAll, options.crossings, options.monitor), options,
+                      messages, measure);
 }
 
 std::variant<Polyhedron, MeshRefusal> try_from_mesh(const Mesh& mesh, const MeshOptions& options, Messages* messages) {

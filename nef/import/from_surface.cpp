@@ -34,11 +34,11 @@ void add_enclosed(const std::vector<Rational3>& ring, const Rational3& normal, s
   Polyhedron cone;
   for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
     const Rational3 corners[4] = {ring[0], ring[i], ring[i + 1], apex};
-    cone = symmetric_difference(cone, regularize(convex_hull(corners, monitor), monitor), 1, monitor);
+    cone = symmetric_difference(cone, regularize(convex_hull(corners, monitor), monitor), monitor);
   }
   const Rational offset = dot(normal, ring[0]);
   out.push_back(intersect(regularize(cone, monitor),
-                          make_halfspace(normal[0], normal[1], normal[2], -offset, true, monitor), 1, monitor));
+                          make_halfspace(normal[0], normal[1], normal[2], -offset, true, monitor), monitor));
   for (std::size_t i = 0; i < ring.size(); ++i)
     out.push_back(make_segment(ring[i], ring[(i + 1) % ring.size()], monitor));
 }
@@ -104,7 +104,7 @@ Polyhedron from_surface(const Mesh& mesh, const MeshSurface& surface, const Mesh
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
     if (single[f]) add_single(mesh, surface, f, parts, options.monitor);
   }
-  return unite_all(parts, options.threads, options.monitor);
+  return unite_all(parts, options.monitor);
 }
 
 }  // namespace nef

@@ -18,21 +18,23 @@
 namespace nef {
 
 MeshFaces::MeshFaces(const Mesh& mesh, const MeshSurface& surface, const MeshOptions& options, Messages* messages)
-    : mesh_(mesh), surface_(surface), options_(options), messages_(messages) {}
-
-SolidFaces MeshFaces::take(bool reverse) && {
-  reverse_ = reverse;
-  number_points();
-  f_.points = std::move(points_);
-  add_faces({});
-  f_.names = std::move(vertex_of_);
-  return std::move(f_);
+    : mesh_(mesh),
+      surface_(surface),
+      options_(options),
+      messages_(messages),
+      order_(spatial_order(surface.points.approximate())),
+      rank_(mesh.vertices.size()),
+      point_of_(mesh.vertices.size()) {
+  order_.erase(std::remove_if(order_.begin(), order_.end(), [&](std::uint32_t v) { return surface.place[v] != v; }),
+               order_.end());
+  for (std::uint32_t i = 0; i < order_.size(); ++i) rank_[order_[i]] = i;
 }
 
 SolidFaces solid_faces(const CheckedSurface& checked, const MeshOptions& options, Messages* messages) {
-  SolidFaces faces = MeshFaces(checked.mesh(), checked.surface(), options, messages).take(checked.inside_out());
+  MeshFaces faces(checked.mesh(), checked.surface(), options, messages);
+  faces.reverse_ = checked.inside_out();
   if (checked.inside_out() && messages != nullptr) messages->emplace_back(kTurnedOver);
-  return faces;
+  return faces.collect({});
 }
 
 Complex MeshFaces::surface(std::span<const std::uint32_t> faces) {
@@ -45,20 +47,16 @@ Complex MeshFaces::oriented_surface(std::span<const std::uint32_t> faces) {
 
 SolidFaces MeshFaces::collect(std::span<const std::uint32_t> faces) {
   f_ = {};
-  number_points();
-  f_.points = points_;
-  f_.names = vertex_of_;
-  add_faces(faces);
-  return std::move(f_);
-}
-
-void MeshFaces::add_faces(std::span<const std::uint32_t> faces) {
+  add_points(faces.empty() ? order_ : places_of(faces));
   const std::vector<std::uint32_t> order = in_order_of_points(faces);
+  std::size_t corners = 0;
+  for (const std::uint32_t face : order) corners += mesh_.face(face).size();
   f_.plane.reserve(order.size());
   f_.planes.reserve(order.size());
   f_.begin.reserve(order.size() + 1);
-  f_.corners.reserve(mesh_.corners.size());
+  f_.corners.reserve(corners);
   for (const std::uint32_t face : order) add_face(face);
+  return std::move(f_);
 }
 
 // Faces by their first point, so that their planes, too, come in spatial order.
@@ -67,10 +65,10 @@ std::vector<std::uint32_t> MeshFaces::in_order_of_points(std::span<const std::ui
   const auto face = [&](std::uint32_t i) { return faces.empty() ? i : faces[i]; };
   const auto least = [&](std::uint32_t i) {
     std::uint32_t result = 0xffffffffU;
-    for (const std::uint32_t v : mesh_.face(face(i))) result = std::min(result, point_of_[v]);
+    for (const std::uint32_t v : mesh_.face(face(i))) result = std::min(result, point_of_[surface_.place[v]]);
     return result;
   };
-  std::vector<std::uint32_t> begin(vertex_of_.size() + 1, 0);
+  std::vector<std::uint32_t> begin(f_.points.size() + 1, 0);
   std::vector<std::uint32_t> order;
   order.reserve(count);
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -84,17 +82,26 @@ std::vector<std::uint32_t> MeshFaces::in_order_of_points(std::span<const std::ui
   return order;
 }
 
-void MeshFaces::number_points() {
-  if (!point_of_.empty()) return;
-  point_of_.resize(mesh_.vertices.size());
-  points_.reserve(mesh_.vertices.size());
-  const PointTable& known = surface_.points.table();
-  for (const std::uint32_t v : spatial_order(surface_.points.approximate())) {
-    if (surface_.place[v] != v) continue;
-    point_of_[v] = (known.size() > 0 ? points_.push_from(known, PointId{v}) : push_small_point(v)).index();
-    vertex_of_.push_back(v);
+// Those of the faces, along the curve.
+std::vector<std::uint32_t> MeshFaces::places_of(std::span<const std::uint32_t> faces) const {
+  std::vector<std::uint32_t> ranks;
+  for (const std::uint32_t face : faces) {
+    for (const std::uint32_t v : mesh_.face(face)) ranks.push_back(rank_[surface_.place[v]]);
   }
-  for (std::uint32_t v = 0; v < mesh_.vertices.size(); ++v) point_of_[v] = point_of_[surface_.place[v]];
+  std::sort(ranks.begin(), ranks.end());
+  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
+  for (std::uint32_t& rank : ranks) rank = order_[rank];
+  return ranks;
+}
+
+void MeshFaces::add_points(std::span<const std::uint32_t> places) {
+  const PointTable& known = surface_.points.table();
+  constexpr std::size_t kSmall = 4;  // limbs of a point with small integers
+  f_.points.reserve(places.size(), known.size() > 0 ? known.limbs_per_point() : kSmall);
+  for (const std::uint32_t v : places) {
+    point_of_[v] = (known.size() > 0 ? f_.points.push_from(known, PointId{v}) : push_small_point(v)).index();
+  }
+  f_.names.assign(places.begin(), places.end());
 }
 
 // A vertex with small integers for coordinates.
@@ -102,7 +109,7 @@ PointId MeshFaces::push_small_point(std::uint32_t vertex) {
   const std::array<std::int64_t, 3> x = surface_.points.integers(vertex);
   std::int64_t common = surface_.points.denominator();
   for (const std::int64_t value : x) common = common_divisor(common, value);
-  return points_.push_homogeneous(
+  return f_.points.push_homogeneous(
       std::array<Int128, 7>{x[0] / common, x[1] / common, x[2] / common, surface_.points.denominator() / common});
 }
 
@@ -110,7 +117,7 @@ void MeshFaces::add_face(std::uint32_t face) {
   if (surface_.defects[face] == FaceDefect::kNoArea) return;
   NEF_ASSERT(surface_.defects[face] == FaceDefect::kNone);
   ring_.clear();
-  for (const std::uint32_t v : mesh_.face(face)) ring_.push_back(point_of_[v]);
+  for (const std::uint32_t v : mesh_.face(face)) ring_.push_back(point_of_[surface_.place[v]]);
   if (reverse_) std::reverse(ring_.begin(), ring_.end());
   if (ring_.size() == 3 && !surface_.irregular[face]) {
     const PlaneId plane = plane_of_triangle(ring_);
@@ -146,9 +153,9 @@ void MeshFaces::push(std::span<const std::uint32_t> ring, PlaneId plane) {
 std::optional<PlaneId> MeshFaces::plane_of_small_triangle(std::span<const std::uint32_t> t) {
   const MeshPoints& points = surface_.points;
   if (!points.are_integers()) return std::nullopt;
-  const std::array<std::int64_t, 3> a = points.integers(vertex_of_[t[0]]);
-  const std::array<std::int64_t, 3> b = points.integers(vertex_of_[t[1]]);
-  const std::array<std::int64_t, 3> c = points.integers(vertex_of_[t[2]]);
+  const std::array<std::int64_t, 3> a = points.integers(f_.names[t[0]]);
+  const std::array<std::int64_t, 3> b = points.integers(f_.names[t[1]]);
+  const std::array<std::int64_t, 3> c = points.integers(f_.names[t[2]]);
   std::array<std::int64_t, 3> u;
   std::array<std::int64_t, 3> v;
   constexpr std::int64_t kLimit = std::int64_t{1} << 30U;

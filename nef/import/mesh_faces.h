@@ -38,10 +38,9 @@ class MeshFaces {
   friend SolidFaces solid_faces(const CheckedSurface& checked, const MeshOptions& options, Messages* messages);
 
  private:
-  SolidFaces take(bool reverse) &&;                          // all, out of this object, which is of no use any more
   SolidFaces collect(std::span<const std::uint32_t> faces);  // all if empty
-  void add_faces(std::span<const std::uint32_t> faces);
-  void number_points();
+  [[nodiscard]] std::vector<std::uint32_t> places_of(std::span<const std::uint32_t> faces) const;
+  void add_points(std::span<const std::uint32_t> places);
   PointId push_small_point(std::uint32_t vertex);
   [[nodiscard]] std::vector<std::uint32_t> in_order_of_points(std::span<const std::uint32_t> faces) const;
   void add_face(std::uint32_t face);
@@ -56,10 +55,10 @@ class MeshFaces {
   const MeshSurface& surface_;
   MeshOptions options_;
   Messages* messages_;
-  std::vector<std::uint32_t> point_of_;   // vertex of the mesh -> point
-  std::vector<std::uint32_t> vertex_of_;  // point -> one vertex of the mesh
-  PointTable points_;
-  SolidFaces f_;
+  std::vector<std::uint32_t> order_;     // one vertex of each place, along a curve
+  std::vector<std::uint32_t> rank_;      // place -> where it is there
+  std::vector<std::uint32_t> point_of_;  // place -> point of the faces at hand
+  SolidFaces f_;                         // these; names are places
   bool reverse_ = false;
   std::vector<std::uint32_t> ring_;
   Integer3 u_, v_, n_;

@@ -9,13 +9,17 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <string_view>
 
+#include "nef/base/counted.h"
 #include "nef/base/freed_memory.h"
+#include "nef/base/word_list.h"
 #include "nef/export/to_mesh.h"
 #include "nef/geometry/vectors.h"
 #include "nef/io/cgal/cgal_nef3.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/mesh/mend_rounded.h"
+#include "nef/io/mesh/mesh_formats.h"
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/native/native_binary.h"
 #include "nef/io/native/native_format.h"
@@ -27,11 +31,35 @@ namespace nef {
 
 namespace {
 
+// A format that holds sets as they are.
+struct SetFormat {
+  std::string_view extension;
+  bool (*recognizes)(std::string_view bytes);
+  Polyhedron (*read)(std::string_view bytes, const std::string& path, const Monitor& monitor);
+  std::string (*write)(const Polyhedron& set, bool text, Messages* messages);
+};
+
+constexpr std::array kSetFormats{
+    SetFormat{"nef", [](std::string_view bytes) { return bytes.starts_with("nef ") || is_native_binary(bytes); },
+              read_native,
+              [](const Polyhedron& set, bool text, Messages* /*messages*/) {
+                return text ? native_text(set) : native_binary(set);
+              }},
+    SetFormat{"nef3", [](std::string_view bytes) { return bytes.starts_with("Selective Nef Complex"); }, read_nef3,
+              [](const Polyhedron& set, bool /*text*/, Messages* messages) { return nef3_text(set, messages); }},
+};
+
+const SetFormat* find_set_format(std::string_view extension) {
+  const auto found = std::find_if(kSetFormats.begin(), kSetFormats.end(),
+                                  [&](const SetFormat& format) { return format.extension == extension; });
+  return found == kSetFormats.end() ? nullptr : &*found;
+}
+
 void report_wires(const MeshExport& result, Messages& notes) {
   const auto add = [&notes](std::size_t count, const char* one, const char* many) {
     if (count == 0) return;
-    notes.push_back(std::to_string(count) + " " + (count == 1 ? one : many) +
-                    " not in the mesh: faces are all that the format has; write OBJ or .nef");
+    notes.push_back(counted(count, one, many) + " not in the mesh: faces are all that the format has; write " +
+                    mesh_format_names(kWires) + " or .nef");
   };
   add(result.lines.size(), "line is", "lines are");
   add(result.points.size(), "point is", "points are");
@@ -41,32 +69,31 @@ void report_wires(const MeshExport& result, Messages& notes) {
 class BoundaryWriter {
  public:
   BoundaryWriter(std::string path, const PolyhedronWriteOptions& options, Messages& notes)
-      : path_(std::move(path)),
-        extension_(options.format.empty() ? lower_extension(path_) : options.format),
-        options_(options),
-        notes_(notes) {
+      : path_(std::move(path)), format_(mesh_format_of(path_, options.format)), options_(options), notes_(notes) {
     file_.exact = options.exact;
     file_.binary = options.binary;
-    file_.format = extension_;
+    file_.format = format_.extension;
     file_.monitor = options.monitor;
-    single_ = is_single_precision(extension_, file_);
-    rounding_ = single_          ? rounding_to_binary_floats()
-                : options.binary ? rounding_to_binary_doubles()
-                                 : rounding_to_decimals();
+    const FileNumbers numbers = format_.numbers(options.binary);
+    single_ = numbers == FileNumbers::kFloats;
+    rounding_ = single_                            ? rounding_to_binary_floats()
+                : numbers == FileNumbers::kDoubles ? rounding_to_binary_doubles()
+                                                   : rounding_to_decimals();
   }
 
   /// What the options for the bytes say so far.
   [[nodiscard]] MeshWriteOptions& file() { return file_; }
-  [[nodiscard]] const std::string& extension() const { return extension_; }
+  [[nodiscard]] const MeshFormat& format() const { return format_; }
 
   /// Moves the mesh to the origin.
   void recenter(Mesh& mesh) { file_.offset = nef::recenter(mesh); }
 
   /// Rounds, repairs and separates the closed surface of a solid. Throws where that is impossible, unless lenient.
   void settle(Mesh& mesh, bool is_strict) {
-    if (options_.manifold && extension_ == "stl") {
-      throw UnsupportedError(
-          "STL names no vertices, so sheets that touch can not be told apart in it; write OFF, OBJ, PLY, GLB or 3MF");
+    if (options_.manifold && !format_.has(kNamedVertices)) {
+      throw UnsupportedError(std::string(format_.name) +
+                             " names no vertices, so sheets that touch can not be told apart in it; write " +
+                             mesh_format_names(kNamedVertices));
     }
     if (options_.manifold && !file_.groups.none()) {
       throw UnsupportedError("--manifold cuts faces, so they can have no groups; leave one of the two out");
@@ -91,7 +118,7 @@ class BoundaryWriter {
   /// Throws where vertices of a surface, of lines or of points become one by rounding, unless lenient.
   void require_apart(const Mesh& mesh) {
     if (options_.exact) return;
-    refuse_infinite(mesh, extension_, file_);
+    refuse_infinite(mesh, format_, file_);
     const std::string merged = merged_vertices(mesh, single_);
     if (merged.empty()) return;
     written_.problem = path_ + ": " + merged;
@@ -117,9 +144,9 @@ class BoundaryWriter {
  private:
   void refuse_unless_lenient(const std::string& more) const {
     if (options_.lenient) return;
-    throw UnsupportedError(written_.problem + more +
-                           ", so no file is written; write .nef, or OFF, OBJ or PLY with --exact, or move it to the "
-                           "origin (--recenter); --lenient writes it as it is");
+    throw UnsupportedError(written_.problem + more + ", so no file is written; write .nef, or " +
+                           mesh_format_names(kFractions) +
+                           " with --exact, or move it to the origin (--recenter); --lenient writes it as it is");
   }
 
   [[nodiscard]] bool all_kept(const Mesh& mesh) const {
@@ -130,8 +157,8 @@ class BoundaryWriter {
 
   // Replaces the mesh by one of the numbers that are written, and returns why there is none.
   std::string round(Mesh& mesh) {
-    refuse_infinite(mesh, extension_, file_);
-    MendedMesh rounded = round_mesh(mesh, rounding_, options_.threads, options_.monitor);
+    refuse_infinite(mesh, format_, file_);
+    MendedMesh rounded = round_mesh(mesh, rounding_, options_.monitor);
     if (!rounded.legal) return rounded.problem;
     if (const std::string done = repair_text(rounded); !done.empty()) notes_.push_back(done);
     mesh = std::move(rounded.mesh);
@@ -150,11 +177,11 @@ class BoundaryWriter {
     notes_.push_back("the solid touches itself, in " + std::to_string(separated.edges) +
                      " edges: " + std::to_string(separated.copies) + " vertices are in the file once more");
     if (options_.exact || all_kept(mesh)) return "";
-    return rounded_problem(mesh, rounding_, options_.threads, options_.monitor);
+    return rounded_problem(mesh, rounding_, options_.monitor);
   }
 
   std::string path_;
-  std::string extension_;
+  const MeshFormat& format_;
   const PolyhedronWriteOptions& options_;
   Messages& notes_;
   MeshWriteOptions file_;
@@ -187,15 +214,14 @@ struct WrittenBoundary {
 
 MeshExport exported(const Polyhedron& polyhedron, const PolyhedronWriteOptions& options, const BoundaryGroups* groups,
                     BoundaryWriter& writer) {
-  const std::string& extension = writer.extension();
   MeshExportOptions export_options;
-  export_options.keep_polygons = extension != "stl" && extension != "glb" && extension != "3mf";
-  export_options.only_convex = !options.polygons;
+  export_options.keep_polygons = writer.format().has(kPolygons);
+  export_options.only_quads = !options.polygons;
   export_options.lower_dimensional = true;
   // Where the mesh is moved, its polygons stay planar only if all else of it is written as it is, too.
   if (options.recenter) export_options.keep_polygons = export_options.keep_polygons && options.exact;
   export_options.polygon_corner = [&](const Rational3& point) {
-    return survives_writing(point, extension, writer.file());
+    return survives_writing(point, writer.format(), writer.file());
   };
   if (groups != nullptr) {
     export_options.selected = groups->selected;
@@ -214,7 +240,7 @@ WrittenBoundary write_boundary(const std::string& path, const Polyhedron& polyhe
   notes = result.lost;
   MeshWriteOptions& file = writer.file();
   if (groups != nullptr) file.groups = groups_of(result, *groups);
-  if (writer.extension() == "obj") {
+  if (writer.format().has(kWires)) {
     file.lines = result.lines;
     file.points = result.points;
   } else {
@@ -227,8 +253,9 @@ WrittenBoundary write_boundary(const std::string& path, const Polyhedron& polyhe
     writer.require_apart(result.mesh);
   }
   writer.color(result.mesh);
-  if (groups != nullptr && !has_groups(writer.extension())) {
-    notes.push_back("groups of faces are not in the file: the format has none; write OBJ, OFF, PLY or GLB");
+  if (groups != nullptr && !writer.format().has(kFaceGroups)) {
+    notes.push_back("groups of faces are not in the file: the format has none; write " +
+                    mesh_format_names(kFaceGroups));
   }
   WrittenBoundary written;
   written.file = writer.write(result.mesh);
@@ -238,14 +265,16 @@ WrittenBoundary write_boundary(const std::string& path, const Polyhedron& polyhe
 }
 
 // The bytes go once they are read.
-Mesh mesh_of(std::string&& bytes, const std::string& path) {
+Mesh mesh_of(std::string&& bytes, const std::string& path, MeshParts* parts) {
   const std::string taken = std::move(bytes);
-  return read_mesh(taken, path);
+  return read_mesh(taken, path, parts);
 }
 
-Polyhedron set_of_mesh_file(std::string&& bytes, const std::string& path, const MeshOptions& options,
-                            Messages* messages) {
-  const Mesh mesh = mesh_of(std::move(bytes), path);
+Polyhedron set_of_mesh_file(std::string&& bytes, const PartPath& at, const std::string& path,
+                            const MeshOptions& options, Messages* messages) {
+  MeshParts parts;
+  Mesh mesh = mesh_of(std::move(bytes), at.file, at.part.empty() ? nullptr : &parts);
+  if (!at.part.empty()) mesh = faces_of_part(mesh, parts, at);
   try {
     return from_mesh(mesh, options, messages);
   } catch (const InputError& error) {
@@ -257,28 +286,36 @@ Polyhedron set_of_mesh_file(std::string&& bytes, const std::string& path, const 
 void require_no_mesh_options(const std::string& path, const PolyhedronWriteOptions& options) {
   if (!options.manifold && !options.recenter) return;
   throw UnsupportedError(path + ": " + (options.manifold ? "--manifold" : "--recenter") +
-                         " is for meshes, and this format holds the set as it is; write OFF, OBJ, PLY, GLB or 3MF");
+                         " is for meshes, and this format holds the set as it is; write " +
+                         mesh_format_names(kNamedVertices));
 }
 
 }  // namespace
 
 Polyhedron read_polyhedron(const std::string& path, const MeshOptions& options, Messages* messages) {
-  const std::string extension = lower_extension(path);
-  std::string bytes = read_file(path);  // once: it may be a pipe
-  if (!is_mesh_extension(extension)) {
-    // Files without a telling extension are known by their first word.
-    if (extension == "nef3" || bytes.starts_with("Selective Nef Complex")) {
-      return read_nef3(bytes, path, options.monitor);
+  const PartPath at = part_path(path);
+  const std::string extension = lower_extension(at.file);
+  std::string bytes = read_file(at.file);  // once: it may be a pipe
+  if (find_mesh_format(extension) == nullptr && at.part.empty()) {
+    for (const SetFormat& format : kSetFormats) {
+      if (format.recognizes(bytes)) return format.read(bytes, path, options.monitor);
     }
-    if (extension == "nef" || bytes.starts_with("nef ") || is_native_binary(bytes)) {
-      return read_native(bytes, path, options.monitor);
-    }
+    if (const SetFormat* named = find_set_format(extension)) return named->read(bytes, path, options.monitor);
   }
   constexpr std::size_t kLarge = std::size_t{1} << 22U;  // smaller ones leave little behind
   const bool is_large = bytes.size() > kLarge;
-  Polyhedron set = set_of_mesh_file(std::move(bytes), path, options, messages);
+  Polyhedron set = set_of_mesh_file(std::move(bytes), at, path, options, messages);
   if (is_large) return_freed_memory();
   return set;
+}
+
+bool is_set_extension(std::string_view extension) { return find_set_format(extension) != nullptr; }
+
+std::vector<std::string> file_extensions() {
+  std::vector<std::string> all;
+  for (const SetFormat& format : kSetFormats) all.emplace_back(format.extension);
+  for (const MeshFormat& format : mesh_formats()) all.emplace_back(format.extension);
+  return all;
 }
 
 std::string offset_note(const std::string& path, const Rational3& offset) {
@@ -290,18 +327,14 @@ std::string offset_note(const std::string& path, const Rational3& offset) {
 WrittenFile write_polyhedron(const std::string& path, const Polyhedron& polyhedron,
                              const PolyhedronWriteOptions& options, Messages* messages) {
   const std::string extension = options.format.empty() ? lower_extension(path) : options.format;
-  if (extension == "nef" || extension == "nef3") require_no_mesh_options(path, options);
-  if (extension == "nef") {
-    write_file(path, options.text ? native_text(polyhedron) : native_binary(polyhedron));
+  if (const SetFormat* format = find_set_format(extension)) {
+    require_no_mesh_options(path, options);
+    write_file(path, format->write(polyhedron, options.text, messages));
     return {};
   }
-  if (extension == "nef3") {
-    write_file(path, nef3_text(polyhedron, messages));
-    return {};
-  }
-  if (!is_mesh_extension(extension)) {
+  if (find_mesh_format(extension) == nullptr) {
     throw FileError(FileProblem::kUnreadable,
-                    path + ": the extension names no format; use nef, nef3, off, obj, stl, ply, glb or 3mf");
+                    path + ": the extension names no format; use " + word_list(file_extensions(), "or"));
   }
   return write_boundary(path, polyhedron, options, nullptr, messages).file;
 }
@@ -311,7 +344,7 @@ WrittenFile write_solid_mesh(const std::string& path, Mesh mesh, bool is_strict,
   Messages notes;
   BoundaryWriter writer(path, options, notes);
   if (options.recenter) writer.recenter(mesh);
-  if (is_mesh_extension(writer.extension()) && mesh.face_count() > 0) writer.settle(mesh, is_strict);
+  if (mesh.face_count() > 0) writer.settle(mesh, is_strict);
   writer.color(mesh);
   WrittenFile written = writer.write(mesh);
   if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
@@ -321,9 +354,9 @@ WrittenFile write_solid_mesh(const std::string& path, Mesh mesh, bool is_strict,
 std::map<std::string, std::size_t> write_groups(const std::string& path, const Polyhedron& labeled,
                                                 const BoundaryGroups& groups, const PolyhedronWriteOptions& options,
                                                 Messages* messages, WrittenFile* written) {
-  const std::string extension = options.format.empty() ? lower_extension(path) : options.format;
-  if (!is_mesh_extension(extension)) {
-    throw FileError(FileProblem::kUnreadable, path + ": groups of faces need a mesh format: off, obj, ply or glb");
+  if (find_mesh_format(options.format.empty() ? lower_extension(path) : options.format) == nullptr) {
+    throw FileError(FileProblem::kUnreadable,
+                    path + ": groups of faces need a mesh format: " + mesh_format_names(kFaceGroups));
   }
   const WrittenBoundary boundary = write_boundary(path, labeled, options, &groups, messages);
   if (written != nullptr) *written = boundary.file;

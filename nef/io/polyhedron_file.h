@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "nef/base/monitor.h"
@@ -18,21 +19,25 @@
 
 namespace nef {
 
-/// Reads a polyhedron: .nef (the own format), .nef3 (CGAL's text), or a mesh (off, obj, stl, ply, glb, 3mf) that
+/// Reads a polyhedron: .nef (the own format), .nef3 (CGAL's text), or a mesh (see mesh_formats.h) that
 /// from_mesh makes a solid of. `messages` gets what was done to the input. Throws InputError (FileError for the file
 /// itself) with the path in front of the text.
 Polyhedron read_polyhedron(const std::string& path, const MeshOptions& options = {}, Messages* messages = nullptr);
 
+/// All extensions that are read and written: nef and nef3, which hold sets as they are, and those of meshes.
+std::vector<std::string> file_extensions();
+/// True for nef and nef3.
+bool is_set_extension(std::string_view extension);
+
 struct PolyhedronWriteOptions {
-  bool exact = false;     ///< exact coordinates in mesh files (not STL)
-  bool binary = false;    ///< binary STL or PLY
+  bool exact = false;     ///< exact coordinates in mesh files whose format has them
+  bool binary = false;    ///< binary instead of text in mesh files whose format has both
   bool text = false;      ///< .nef as text; it is binary otherwise
-  bool polygons = false;  ///< faces that are not convex stay polygons, too, in OFF, OBJ, PLY
+  bool polygons = false;  ///< faces of more than four corners, or not convex, stay polygons where the format has them
   bool manifold = false;  ///< in mesh files each edge has two faces (separate_sheets; not in STL, and
                           ///< not together with groups)
   bool lenient = false;   ///< write a mesh even if it is known not to be strictly legal
   bool recenter = false;  ///< subtract the middle of the mesh from its coordinates, so that few digits are lost
-  unsigned threads = 1;   ///< that check; 0: as many as the machine has. The file does not depend on it
   /// Red, green and blue for the vertices of the mesh that goes to a file; PLY and GLB only.
   std::function<std::vector<std::array<std::uint8_t, 3>>(const Mesh&)> vertex_colors = {};
   std::string format = {};  ///< instead of the extension of the path, which may be none
@@ -53,8 +58,8 @@ struct WrittenFile {
 std::string offset_note(const std::string& path, const Rational3& offset);
 
 /// Writes a polyhedron; the file gets its name when it is whole. "-" is standard output. Mesh formats hold the boundary
-/// of the bounded solid parts: convex faces as they are where rounding leaves them planar, all others as triangles.
-/// Coordinates are rounded to the nearest numbers of the format; if the result is not strictly legal
+/// of the bounded solid parts: convex faces of four corners as they are where rounding leaves them planar, all others
+/// as triangles. Coordinates are rounded to the nearest numbers of the format; if the result is not strictly legal
 /// (is_strictly_legal) it is repaired by going to other numbers nearby. Sets without solid parts are written as
 /// surfaces, and to OBJ as lines and points, if their vertices stay apart. `messages` gets a line for what was repaired
 /// and for everything that the file does not hold. Throws FileError for an unknown extension or a file that cannot be

@@ -23,7 +23,7 @@ MeshExport exported(const Polyhedron& set, const SolidMeshOptions& options, cons
   MeshExportOptions how;
   // Polygons stay planar only if all of their corners are moved alike and none is rounded.
   how.keep_polygons = options.polygons && !(options.repair && options.recenter);
-  how.only_convex = options.manifold || options.repair;
+  how.only_quads = options.manifold || options.repair;
   if (options.repair) {
     how.polygon_corner = [&rounding](const Rational3& p) {
       return std::all_of(p.begin(), p.end(), [&](const Rational& x) { return is_kept(x, rounding); });
@@ -40,7 +40,7 @@ SolidMesh solid_mesh(const Polyhedron& set, const SolidMeshOptions& options) {
   SolidMesh result{.mesh = std::move(made.mesh), .notes = std::move(made.lost)};
   if (options.recenter) result.offset = recenter(result.mesh);
   if (options.repair) {
-    MendedMesh rounded = round_mesh(result.mesh, rounding, options.threads, options.monitor);
+    MendedMesh rounded = round_mesh(result.mesh, rounding, options.monitor);
     if (!rounded.legal) require_legal(rounded.problem);
     if (const std::string done = repair_text(rounded); !done.empty()) result.notes.push_back(done);
     result.mesh = std::move(rounded.mesh);
@@ -49,7 +49,7 @@ SolidMesh solid_mesh(const Polyhedron& set, const SolidMeshOptions& options) {
   SeparatedSheets separated = separate_sheets(result.mesh);
   result.mesh = std::move(separated.mesh);
   if (options.repair && separated.copies > 0) {  // it may have added middles of edges, which are rounded, too
-    require_legal(rounded_problem(result.mesh, rounding, options.threads, options.monitor));
+    require_legal(rounded_problem(result.mesh, rounding, options.monitor));
   }
   return result;
 }

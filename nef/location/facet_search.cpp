@@ -28,9 +28,9 @@ int sign_of_cross_component(const PlaneTable& planes, PlaneId g, PlaneId f, std:
 
 class ParityCount {
  public:
-  ParityCount(const Complex& complex, const Facet& facet, const PointRef& point, const Monitor& monitor)
-      : complex_(complex), facet_(facet), point_(point), monitor_(monitor) {
-    const PlaneAxes axes(complex.planes, facet.plane);
+  ParityCount(const Complex& complex, FacetId facet, const PointRef& point, const Monitor& monitor)
+      : complex_(complex), id_(facet), facet_(complex.facets[facet]), point_(point), monitor_(monitor) {
+    const PlaneAxes axes(complex.planes, facet_.plane);
     k_ = static_cast<std::size_t>(axes.first);
     m_ = static_cast<std::size_t>(axes.second);
     ray_sign_ = axes.positive ? 1 : -1;
@@ -73,7 +73,7 @@ class ParityCount {
     const PlaneId g = facet_first ? edge.q : edge.p;
     const int g_side = side_of_plane(complex_.planes, g, point_, monitor_);
     if (g_side == 0) {
-      place_ = {FacetPlace::Kind::kEdge, halfedge.index()};
+      place_ = ItemRef(halfedge);
       return;
     }
     // The edge runs along n_p x n_q. If F is one of these planes, the way that the edge goes in k tells
@@ -89,12 +89,9 @@ class ParityCount {
     if (-g_side * turn * ray_sign_ > 0) inside_ = !inside_;
   }
 
-  [[nodiscard]] bool on_boundary() const { return place_.kind != FacetPlace::Kind::kOutside; }
+  [[nodiscard]] bool on_boundary() const { return place_.valid(); }
 
-  [[nodiscard]] FacetPlace place() const {
-    if (on_boundary() || !inside_) return place_;
-    return {FacetPlace::Kind::kInside, 0};
-  }
+  [[nodiscard]] ItemRef place() const { return on_boundary() || !inside_ ? place_ : ItemRef(id_); }
 
  private:
   [[nodiscard]] int compare(VertexId vertex, std::size_t axis) const {
@@ -107,16 +104,17 @@ class ParityCount {
     const int u_along = u_side == 0 ? compare(u, m_) : 1;
     const int v_along = v_side == 0 ? compare(v, m_) : 1;
     if (u_along == 0) {
-      place_ = {FacetPlace::Kind::kVertex, u.index()};
+      place_ = ItemRef(u);
     } else if (v_along == 0) {
-      place_ = {FacetPlace::Kind::kVertex, v.index()};
+      place_ = ItemRef(v);
     } else if (u_side == 0 && v_side == 0 && u_along != v_along) {
-      place_ = {FacetPlace::Kind::kEdge, halfedge.index()};
+      place_ = ItemRef(halfedge);
     }
     return on_boundary();
   }
 
   const Complex& complex_;
+  FacetId id_;
   Facet facet_;
   const PointRef& point_;
   Monitor monitor_;
@@ -126,14 +124,15 @@ class ParityCount {
   std::array<double, 3> low_{};
   std::array<double, 3> high_{};
   bool inside_ = false;
-  FacetPlace place_;
+  ItemRef place_;  // on the boundary
 };
 
 }  // namespace
 
-FacetPlace locate_in_facet(const Complex& complex, const Facet& facet, const PointRef& point, const BoxTree* edges,
-                           const Monitor& monitor) {
-  ParityCount count(complex, facet, point, monitor);
+ItemRef locate_in_facet(const Complex& complex, FacetId f, const PointRef& point, const BoxTree* edges,
+                        const Monitor& monitor) {
+  const Facet& facet = complex.facets[f];
+  ParityCount count(complex, f, point, monitor);
   if (edges == nullptr) {
     for (const CycleId c : facet.cycles()) {
       if (count.on_boundary()) break;

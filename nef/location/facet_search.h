@@ -3,28 +3,19 @@
 // Where a point of a facet's plane lies with respect to that facet.
 #pragma once
 
-#include <cstdint>
-
 #include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
+#include "nef/complex/item_ref.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/location/compare.h"
 
 namespace nef {
 
-/// A place in the closure of a facet, isolated vertices disregarded.
-struct FacetPlace {
-  enum class Kind : std::uint8_t { kOutside, kInside, kEdge, kVertex };
-  Kind kind = Kind::kOutside;
-  std::uint32_t index = 0;  ///< kEdge: a halfedge; kVertex: a vertex
-  [[nodiscard]] VertexId vertex() const { return VertexId{index}; }
-  [[nodiscard]] HalfedgeId halfedge() const { return HalfedgeId{index}; }
-};
-
-/// The place of `point`, which must lie on the plane of the facet. `edges`, if given, is the tree
-/// made by facet_edge_tree; without it the cost is linear in the number of corners.
-FacetPlace locate_in_facet(const Complex& complex, const Facet& facet, const PointRef& point, const BoxTree* edges,
-                           const Monitor& monitor);
+/// The vertex, edge (as one of its halfedges) or facet in the closure of a facet that contains `point`, which must lie
+/// on its plane; none if the point lies outside. Isolated vertices are disregarded: there, it is the facet. `edges`, if
+/// given, is the tree made by facet_edge_tree; without it the cost is linear in the number of corners.
+ItemRef locate_in_facet(const Complex& complex, FacetId facet, const PointRef& point, const BoxTree* edges,
+                        const Monitor& monitor);
 
 /// The tree over the boundary edges of a facet: item i is the edge that leaves corner i of
 /// complex.corners_of(facet).

@@ -108,25 +108,22 @@ std::optional<VertexId> QueryStructure::free_vertex_at(const Complex& complex, c
   return result;
 }
 
-std::optional<ComplexHit> QueryStructure::item_at(const Complex& complex, const PointRef& point,
-                                                  const Monitor& monitor) const {
-  using Kind = ComplexHit::Kind;
-  std::optional<ComplexHit> result;
+ItemRef QueryStructure::item_at(const Complex& complex, const PointRef& point, const Monitor& monitor) const {
+  ItemRef result;
   tree_.for_each_overlap(mirrored(point_box(point)), [&](std::uint32_t i) {
-    if (result && result->kind != Kind::kFacet) return;
+    if (result.valid() && result.kind != ItemRef::Kind::kFacet) return;
     const std::uint32_t index = items_[i] / 4;
     switch (items_[i] % 4) {
       case kVertexItem:
         // A vertex inside a facet takes precedence over that facet.
-        if (same_point({&complex.points, point_of(VertexId{index})}, point, monitor))
-          result = ComplexHit::at(VertexId{index});
+        if (same_point({&complex.points, point_of(VertexId{index})}, point, monitor)) result = ItemRef(VertexId{index});
         return;
       case kEdgeItem: {
         const HalfedgeId edge{index};
         for (const VertexId end : {complex.source(edge), complex.target(edge)}) {
-          if (same_point({&complex.points, point_of(end)}, point, monitor)) result = ComplexHit::at(end);
+          if (same_point({&complex.points, point_of(end)}, point, monitor)) result = ItemRef(end);
         }
-        if (on_edge(complex, edge, point, monitor)) result = ComplexHit::at_edge(edge);
+        if (on_edge(complex, edge, point, monitor)) result = ItemRef(edge);
         return;
       }
       default:
@@ -134,14 +131,11 @@ std::optional<ComplexHit> QueryStructure::item_at(const Complex& complex, const 
     }
     const FacetId f{index};
     const Facet& facet = complex.facets[f];
-    if (result || side_of_plane(complex.planes, facet.plane, point, monitor) != 0) return;
-    const FacetPlace place = locate_in_facet(complex, facet, point, edge_tree(complex, f), monitor);
-    if (place.kind == FacetPlace::Kind::kInside)
-      result = ComplexHit{Kind::kFacet, halffacet_of(f, false).index(), SFaceId()};
-    if (place.kind == FacetPlace::Kind::kEdge) result = ComplexHit::at_edge(place.halfedge());
-    if (place.kind == FacetPlace::Kind::kVertex) result = ComplexHit::at(place.vertex());
+    if (result.valid() || side_of_plane(complex.planes, facet.plane, point, monitor) != 0) return;
+    const ItemRef place = locate_in_facet(complex, f, point, edge_tree(complex, f), monitor);
+    if (place.valid()) result = place;
   });
-  if (result && result->kind == Kind::kEdge) result = ComplexHit::at_edge(complex.edge(result->halfedge()));
+  if (result.kind == ItemRef::Kind::kEdge) result = ItemRef(complex.edge(result.halfedge()));
   return result;
 }
 
@@ -155,8 +149,8 @@ SFaceId QueryStructure::first_sface_minus_x(const Complex& complex, VertexId ver
   if (!hit) return {};
   if (hit->kind == ComplexHit::Kind::kFacet) {
     // A corner is oriented like the positive halffacet; its twin looks to the other side.
-    const SHalfedgeId corner = complex.corners_of(facet_of(hit->halffacet()))[0];
-    return complex.shalfedge_sfaces(corner)[is_below(hit->halffacet()) ? 1 : 0];
+    const SHalfedgeId corner = complex.corners_of(hit->facet())[0];
+    return complex.shalfedge_sfaces(corner)[is_below(hit->halffacet) ? 1 : 0];
   }
   NEF_ASSERT(hit->sface.valid());
   return hit->sface;
@@ -168,7 +162,7 @@ VolumeId QueryStructure::volume_at(const Complex& complex, const PointRef& point
 }
 
 VolumeId volume_before(const Complex& complex, const ComplexHit& hit) {
-  if (hit.kind == ComplexHit::Kind::kFacet) return complex.halffacet_volume(hit.halffacet());
+  if (hit.kind == ComplexHit::Kind::kFacet) return complex.halffacet_volume(hit.halffacet);
   NEF_ASSERT(hit.sface.valid());
   return complex.sface_volume(hit.sface);
 }

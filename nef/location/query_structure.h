@@ -13,25 +13,22 @@
 
 #include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
+#include "nef/complex/item_ref.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/location/compare.h"
 
 namespace nef {
 
-/// A vertex, edge or facet of a complex that holds a point or is met by a ray.
-struct ComplexHit {
-  enum class Kind : std::uint8_t { kVertex, kEdge, kFacet };
-  Kind kind = Kind::kVertex;
-  /// A vertex; a halfedge; a halffacet (from a ray: the side that the ray comes from).
-  std::uint32_t index = 0;
-  static ComplexHit at(VertexId vertex) { return {Kind::kVertex, vertex.index(), SFaceId()}; }
-  static ComplexHit at_edge(HalfedgeId halfedge) { return {Kind::kEdge, halfedge.index(), SFaceId()}; }
-  [[nodiscard]] VertexId vertex() const { return VertexId{index}; }
-  [[nodiscard]] HalfedgeId halfedge() const { return HalfedgeId{index}; }
-  [[nodiscard]] HalffacetId halffacet() const { return HalffacetId{index}; }
-  /// Vertex or edge met by a ray: the sface (at that vertex or at the source of that
-  /// halfedge) through which the ray comes. None if the ray comes along a facet or an edge, and
-  /// for facets.
+/// A vertex, edge (as a halfedge) or facet of a complex that is met by a ray.
+struct ComplexHit : ItemRef {
+  explicit ComplexHit(ItemRef item) : ItemRef(item) {}
+  /// A facet that a ray meets from that side.
+  explicit ComplexHit(HalffacetId from) : ItemRef(facet_of(from)), halffacet(from) {}
+
+  /// Facet: the side that the ray comes from.
+  HalffacetId halffacet;
+  /// Vertex or edge: the sface (at that vertex or at the source of that halfedge) through which the ray
+  /// comes. None if the ray comes along a facet or an edge, and for facets.
   SFaceId sface;
 };
 
@@ -55,10 +52,8 @@ class QueryStructure {
   /// from all of them costs a question.
   QueryStructure(const Complex& complex, const BoxTree& places);
 
-  /// The vertex, edge or facet (kFacet: index of the positive halffacet) that holds the point;
-  /// nothing if it lies in a volume. O(log n) expected.
-  [[nodiscard]] std::optional<ComplexHit> item_at(const Complex& complex, const PointRef& point,
-                                                  const Monitor& monitor) const;
+  /// The vertex, edge or facet that contains the point; none if it lies in a volume. O(log n) expected.
+  [[nodiscard]] ItemRef item_at(const Complex& complex, const PointRef& point, const Monitor& monitor) const;
 
   /// The first vertex, edge or facet that the ray meets and `accept` (if given) takes. A facet
   /// in whose plane the ray runs and an edge on whose line it runs are not met themselves, but

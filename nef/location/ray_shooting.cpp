@@ -79,7 +79,7 @@ class RayShooter {
   void visit_vertex(VertexId vertex) {
     const PointRef point{&complex_.points, point_of(vertex)};
     const std::optional<int> position = position_on_line(ray_, point);
-    if (position && *position > 0) offer(ComplexHit::at(vertex), point);
+    if (position && *position > 0) offer(ComplexHit(ItemRef(vertex)), point);
   }
 
   void visit_edge(HalfedgeId halfedge) {
@@ -102,8 +102,8 @@ class RayShooter {
       const int v_side = compare_coordinate(PointRef{&complex_.points, point_of(v)}, *meeting, axis, monitor_);
       if (u_side == 0 && v_side == 0) continue;
       if (u_side * v_side > 0) return;
-      if (u_side * v_side < 0) return offer(ComplexHit::at_edge(halfedge), *meeting);
-      return offer(ComplexHit::at(u_side == 0 ? u : v), *meeting);
+      if (u_side * v_side < 0) return offer(ComplexHit(ItemRef(halfedge)), *meeting);
+      return offer(ComplexHit(ItemRef(u_side == 0 ? u : v)), *meeting);
     }
   }
 
@@ -115,25 +115,17 @@ class RayShooter {
     }
     const std::optional<PointRef> meeting = meet(facet.plane);
     if (!meeting || (hit_ && !nearer(*meeting))) return;
-    const FacetPlace place = locate_in_facet(complex_, facet, *meeting, structure_.edge_tree(complex_, f), monitor_);
-    switch (place.kind) {
-      case FacetPlace::Kind::kOutside:
-        return;
-      case FacetPlace::Kind::kEdge:
-        return offer(ComplexHit::at_edge(place.halfedge()), *meeting);
-      case FacetPlace::Kind::kVertex:
-        return offer(ComplexHit::at(place.vertex()), *meeting);
-      case FacetPlace::Kind::kInside:
-        break;
-    }
+    const ItemRef place = locate_in_facet(complex_, f, *meeting, structure_.edge_tree(complex_, f), monitor_);
+    if (!place.valid()) return;
+    if (place.kind != ItemRef::Kind::kFacet) return offer(ComplexHit(place), *meeting);
     if (facet.isolated_count > 0) {
       // What is met may be a vertex inside the facet.
       if (const auto vertex = structure_.free_vertex_at(complex_, *meeting, monitor_)) {
-        return offer(ComplexHit::at(*vertex), *meeting);
+        return offer(ComplexHit(ItemRef(*vertex)), *meeting);
       }
     }
     const bool from_above = side_of_plane(complex_.planes, facet.plane, ray_.origin, monitor_) > 0;
-    offer({ComplexHit::Kind::kFacet, halffacet_of(f, !from_above).index(), SFaceId()}, *meeting);
+    offer(ComplexHit(halffacet_of(f, !from_above)), *meeting);
   }
 
   // The ray runs in the plane of the facet.

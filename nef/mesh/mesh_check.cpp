@@ -13,8 +13,10 @@
 #include <set>
 #include <span>
 
+#include "nef/base/fast_path.h"
 #include "nef/mesh/area_vector.h"
 #include "nef/mesh/edge_order.h"
+#include "nef/mesh/surface/convex_surface.h"
 #include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/surface/surface_contacts.h"
 
@@ -406,20 +408,25 @@ std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshCheckOptions& op
 }
 
 std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface, const MeshCheckOptions& options,
-                                    const Monitor& monitor, std::vector<FaceContact>* found) {
+                                    const Monitor& monitor, std::optional<std::vector<FaceContact>>* contacts) {
+  std::optional<std::vector<FaceContact>> own;
+  std::optional<std::vector<FaceContact>>& found = contacts == nullptr ? own : *contacts;
+  if (kFastPaths && bounds_small_convex_solid(mesh, surface, monitor)) {
+    found.emplace();
+    return {};
+  }
   Report report(options.max_per_kind);
-  const SurfaceContacts contacts(surface, monitor);
+  const SurfaceContacts meeting(surface, monitor);
   check_faces(mesh, surface, report);
-  bool closed = all_triangles(surface) && contacts.stars().all_closed();
+  bool closed = all_triangles(surface) && meeting.stars().all_closed();
   if (!closed) {
     check_duplicates(mesh, surface, report);
-    closed = check_edges(mesh, surface, contacts, report);
+    closed = check_edges(mesh, surface, meeting, report);
   }
   const bool decided = options.only_verdict && !report.is_legal();
   if (options.self_intersections && !decided) {
-    std::vector<FaceContact> meeting = face_contacts(surface, contacts);
-    check_contacts(surface, meeting, report);
-    if (found != nullptr) *found = std::move(meeting);
+    if (!found) found = face_contacts(surface, meeting);
+    check_contacts(surface, *found, report);
   }
   check_planarity(mesh, surface, report);
   check_vertices(mesh, surface, report);

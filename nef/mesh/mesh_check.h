@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,10 +73,11 @@ struct MeshCheckOptions {
 /// exact. O(n log n) for meshes whose faces meet few others; 20000 triangles take about 50 ms.
 std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshCheckOptions& options = {},
                                     const Monitor& monitor = {});
-/// The same for a mesh whose surface is there already. `contacts`, if given, receives all contacts of faces, if these
-/// were looked for (face_contacts).
+/// The same for a mesh whose surface is there already. `contacts`, if given, are all contacts of its faces
+/// (face_contacts) if it holds something, and receives them if it does not and they were looked for.
 std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface, const MeshCheckOptions& options,
-                                    const Monitor& monitor, std::vector<FaceContact>* contacts = nullptr);
+                                    const Monitor& monitor,
+                                    std::optional<std::vector<FaceContact>>* contacts = nullptr);
 
 /// How far the corners of a face are from the plane through their centroid whose normal is the area vector of the
 /// face: the largest distance. Zero iff the face is planar and not degenerate, or has no area vector.

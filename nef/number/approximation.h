@@ -5,6 +5,7 @@
 // bound of its own; one that must be faster derives a bound for all of it beside its constant.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -12,6 +13,7 @@
 
 #include "nef/base/fast_path.h"
 #include "nef/base/monitor.h"
+#include "nef/number/number.h"
 
 namespace nef {
 
@@ -63,6 +65,15 @@ inline Approximation operator/(const Approximation& a, const Approximation& b) {
   const double moved = a.error / least + std::fabs(value) * (1 + 0x1p-50) * (b.error / least);
   return {value, (moved + std::fabs(value) * kRoundingUnit) * (1 + 0x1p-48) + 1e-300};
 }
+
+/// A rational number as the nearest double.
+inline Approximation approximation_of(const Rational& x) {
+  const double value = nearest_double(x);
+  return {value, std::fabs(value) * kRoundingUnit + 1e-300};
+}
+
+/// A point or vector near an exact one.
+using Approximation3 = std::array<Approximation, 3>;
 
 /// The sign of a number: what its approximation tells (if fast paths are on), else what `exact()` says. Counts which of
 /// the two it was.

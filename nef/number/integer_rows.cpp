@@ -204,6 +204,43 @@ void IntegerRows::pop() {
   }
 }
 
+void IntegerRows::keep(std::span<const std::uint8_t> used) {
+  NEF_ASSERT(used.size() == size_);
+  if (size_ == 0) return;
+  std::size_t from = 0;  // limb
+  std::size_t to = 0;
+  std::size_t kept = 0;
+  const auto move_sizes = [&](auto first, std::size_t row) {
+    const auto begin = first + static_cast<std::ptrdiff_t>(row * width_);
+    std::copy(begin, begin + static_cast<std::ptrdiff_t>(width_), first + static_cast<std::ptrdiff_t>(kept * width_));
+  };
+  for (std::size_t row = 0; row < size_; ++row) {
+    const std::size_t limbs = limbs_between(row * width_, (row + 1) * width_);
+    if (used[row] != 0) {
+      if (kept < row) {
+        std::copy_n(limbs_.begin() + static_cast<std::ptrdiff_t>(from), limbs,
+                    limbs_.begin() + static_cast<std::ptrdiff_t>(to));
+        if (is_wide_) {
+          move_sizes(wide_.begin(), row);
+        } else {
+          move_sizes(sizes_.begin() + kPadding, row);
+        }
+      }
+      to += limbs;
+      if (++kept % kTogether == 0) begin_[kept / kTogether] = static_cast<std::uint32_t>(to);
+    }
+    from += limbs;
+  }
+  size_ = kept;
+  limbs_.resize(to);
+  begin_.resize(kept / kTogether + 1);
+  if (is_wide_) {
+    wide_.resize(kept * width_);
+  } else {
+    sizes_.resize(kPadding + kept * width_);
+  }
+}
+
 std::size_t IntegerRows::bytes() const {
   return held_bytes(limbs_) + held_bytes(begin_) + held_bytes(sizes_) + held_bytes(wide_);
 }

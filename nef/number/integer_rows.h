@@ -36,7 +36,7 @@ class IntegerView {
   mpz_t value_;
 };
 
-/// Rows of `width` integers each. Rows are appended and never change.
+/// Rows of `width` integers each. Rows are appended and dropped, and never change.
 class IntegerRows {
  public:
   explicit IntegerRows(std::size_t width) : width_(width) {}
@@ -131,8 +131,13 @@ class IntegerRows {
   /// Takes the last row off again.
   void pop();
 
+  /// Keeps the rows with used[row] other than 0, in their order, without a copy of the table. O(rows).
+  void keep(std::span<const std::uint8_t> used);
+
   [[nodiscard]] std::size_t bytes() const;
   [[nodiscard]] std::size_t limbs() const { return limbs_.size(); }
+  /// On average, rounded up; 0 if there are no rows.
+  [[nodiscard]] std::size_t limbs_per_row() const { return size_ == 0 ? 0 : (limbs_.size() + size_ - 1) / size_; }
 
   void reserve(std::size_t rows, std::size_t limbs_per_row);
 

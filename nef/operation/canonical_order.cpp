@@ -38,12 +38,8 @@ bool coefficients_less(const PlaneTable& planes, std::uint32_t a, std::uint32_t 
 class Canonical {
  public:
   Canonical(PlaneTable&& planes, std::span<const CanonicalPart> parts, std::vector<CanonicalVertex>&& vertices,
-            unsigned threads, const Monitor& monitor)
-      : planes_(std::move(planes)),
-        parts_(parts),
-        vertices_(std::move(vertices)),
-        threads_(threads),
-        monitor_(monitor) {}
+            const Monitor& monitor)
+      : planes_(std::move(planes)), parts_(parts), vertices_(std::move(vertices)), monitor_(monitor) {}
 
   Complex run(LabelId outer) {
     arrange(outer);
@@ -52,7 +48,7 @@ class Canonical {
     write(planes, builder);
     KnownLinks known = known_twins(builder.so_far());
     numbers_ = {};
-    return builder.finish(outer, std::move(known), threads_);
+    return builder.finish(outer, std::move(known));
   }
 
   CanonicalVertices run_unlinked(LabelId outer) {
@@ -102,12 +98,14 @@ class Canonical {
   }
 
   // Calls body(first, last, chunk, own) for parts of all vertices, several at once; one thread has one part.
-  [[nodiscard]] std::size_t chunk_count() const { return threads_ == 1 ? 1 : (count() + kChunk - 1) / kChunk; }
+  [[nodiscard]] std::size_t chunk_count() const {
+    return monitor_.threads() == 1 ? 1 : (count() + kChunk - 1) / kChunk;
+  }
   template <typename Body>
   void for_each_chunk(Body&& body) const {
     const std::size_t chunks = chunk_count();
     monitor_.check_interruption();
-    parallel_for(chunks, threads_, monitor_, [&](std::size_t k, const Monitor& own) {
+    parallel_for(chunks, monitor_, [&](std::size_t k, const Monitor& own) {
       const auto first = static_cast<std::uint32_t>(k * kChunk);
       body(first, chunks == 1 ? count() : std::min(count(), first + kChunk), k, own);
     });
@@ -187,12 +185,11 @@ class Canonical {
 
   void find_rings() {
     rings_.resize(parts_.size());
-    parallel_for_ranges(parts_.size(), kParts, threads_, monitor_,
-                        [this](std::size_t first, std::size_t last, const Monitor&) {
-                          for (std::size_t k = first; k < last; ++k) {
-                            rings_[k] = RingsOfPatterns(parts_[k].complex->patterns);
-                          }
-                        });
+    parallel_for_ranges(parts_.size(), kParts, monitor_, [this](std::size_t first, std::size_t last, const Monitor&) {
+      for (std::size_t k = first; k < last; ++k) {
+        rings_[k] = RingsOfPatterns(parts_[k].complex->patterns);
+      }
+    });
   }
 
   // The two planes that name the line of each svertex: of facets where two arrive, others parallel to an axis.
@@ -309,13 +306,12 @@ class Canonical {
     }
     std::vector<std::uint32_t> ordered(begin.back());
     numbers_.assign(first_number_.back(), HalfedgeId());
-    parallel_for_ranges(parts_.size(), kParts, threads_, monitor_,
-                        [&](std::size_t first, std::size_t last, const Monitor&) {
-                          for (std::size_t k = first; k < last; ++k) {
-                            std::transform(parts_[k].rows.begin(), parts_[k].rows.end(), ordered.begin() + begin[k],
-                                           [this](std::uint32_t row) { return row_[row]; });
-                          }
-                        });
+    parallel_for_ranges(parts_.size(), kParts, monitor_, [&](std::size_t first, std::size_t last, const Monitor&) {
+      for (std::size_t k = first; k < last; ++k) {
+        std::transform(parts_[k].rows.begin(), parts_[k].rows.end(), ordered.begin() + begin[k],
+                       [this](std::uint32_t row) { return row_[row]; });
+      }
+    });
     const auto rows_of = [&](std::uint32_t part) {
       if (parts_[part].rows.empty()) return std::span<const std::uint32_t>(row_);
       return std::span<const std::uint32_t>(ordered).subspan(begin[part], begin[part + 1] - begin[part]);
@@ -412,7 +408,6 @@ class Canonical {
   PlaneTable planes_;
   std::span<const CanonicalPart> parts_;
   std::vector<CanonicalVertex> vertices_;
-  unsigned threads_;
   Monitor monitor_;
   std::vector<std::array<double, 3>> places_;  // of vertices, until they are in order
   std::vector<std::uint8_t> reducible_;        // coordinates of a vertex have common factors
@@ -434,22 +429,21 @@ std::vector<CanonicalVertex> all_vertices(const Complex& complex) {
 }  // namespace
 
 Complex canonical_complex(PlaneTable&& planes, std::span<const CanonicalPart> parts,
-                          std::vector<CanonicalVertex>&& vertices, LabelId outer, unsigned threads,
-                          const Monitor& monitor) {
-  return Canonical(std::move(planes), parts, std::move(vertices), threads, monitor).run(outer);
+                          std::vector<CanonicalVertex>&& vertices, LabelId outer, const Monitor& monitor) {
+  return Canonical(std::move(planes), parts, std::move(vertices), monitor).run(outer);
 }
 
 Polyhedron in_canonical_order(const Polyhedron& set, const Monitor& monitor) {
   const Complex& c = set.complex();
   const CanonicalPart part{&c, {}};
   return Polyhedron(
-      canonical_complex(PlaneTable(c.planes), {&part, 1}, all_vertices(c), c.volumes[kOuterVolume].mark, 1, monitor));
+      canonical_complex(PlaneTable(c.planes), {&part, 1}, all_vertices(c), c.volumes[kOuterVolume].mark, monitor));
 }
 
 CanonicalVertices canonical_vertices(const Polyhedron& set, const Monitor& monitor) {
   const Complex& c = set.complex();
   const CanonicalPart part{&c, {}};
-  return Canonical(PlaneTable(c.planes), {&part, 1}, all_vertices(c), 1, monitor)
+  return Canonical(PlaneTable(c.planes), {&part, 1}, all_vertices(c), monitor)
       .run_unlinked(c.volumes[kOuterVolume].mark);
 }
 

@@ -35,11 +35,10 @@ struct CanonicalVertex {
   VertexId vertex{0};
 };
 
-/// The complex of some vertices of several complexes in that order, by the planes of a common table, on up to `threads`
-/// threads. Twins of a part are those of the result where both ends are among the vertices. `outer` is the mark of all
-/// of space if there are no vertices.
+/// The complex of some vertices of several complexes in that order, by the planes of a common table, on the threads
+/// of `monitor`. Twins of a part are those of the result where both ends are among the vertices. `outer` is the mark of
+/// all of space if there are no vertices.
 Complex canonical_complex(PlaneTable&& planes, std::span<const CanonicalPart> parts,
-                          std::vector<CanonicalVertex>&& vertices, LabelId outer, unsigned threads,
-                          const Monitor& monitor);
+                          std::vector<CanonicalVertex>&& vertices, LabelId outer, const Monitor& monitor);
 
 }  // namespace nef

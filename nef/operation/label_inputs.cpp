@@ -19,14 +19,14 @@ InputSet both(const InputSet& a, const InputSet& b) {
 
 }  // namespace
 
-LabeledPolyhedron<InputSet> label_inputs(std::span<const Polyhedron> inputs, unsigned threads, const Monitor& monitor) {
+LabeledPolyhedron<InputSet> label_inputs(std::span<const Polyhedron> inputs, const Monitor& monitor) {
   if (inputs.empty()) return Labeled(InputSet{});
   std::vector<Labeled> left;
   for (std::uint32_t i = 0; i < inputs.size(); ++i) left.emplace_back(inputs[i], InputSet{}, InputSet{i});
   // Neighbours in the order of inputs are paired, round after round, whatever the number of threads.
   while (left.size() > 1) {
     std::vector<Labeled> next(left.size() / 2, Labeled(InputSet{}));
-    parallel_for(next.size(), threads, monitor, [&](std::size_t i, const Monitor& own) {
+    parallel_for(next.size(), monitor, [&](std::size_t i, const Monitor& own) {
       next[i] = overlay(left[2 * i], left[2 * i + 1], both, own);
     });
     if (left.size() % 2 == 1) next.push_back(std::move(left.back()));

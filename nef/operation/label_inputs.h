@@ -19,10 +19,8 @@ using InputSet = std::vector<std::uint32_t>;
 /// Every point carries the set of inputs that hold it. Any Boolean combination of them is
 /// `result.where([](const InputSet& inputs) { ... })`, and the facets of the complex are cut where they change from one
 /// input to another. Inputs that overlap in many ways need many labels: UnsupportedError beyond some 65000. The cost is
-/// that of uniting the sets with their inner walls kept. `threads` 0: as many as the machine has; the result does not
-/// depend on it.
-LabeledPolyhedron<InputSet> label_inputs(std::span<const Polyhedron> inputs, unsigned threads = 1,
-                                         const Monitor& monitor = {});
+/// that of uniting the sets with their inner walls kept.
+LabeledPolyhedron<InputSet> label_inputs(std::span<const Polyhedron> inputs, const Monitor& monitor = {});
 
 /// The inputs on whose boundary a facet lies, from the inputs that hold its two sides: those on one side only.
 InputSet origins(const InputSet& one_side, const InputSet& other_side);

@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "nef/base/error.h"
+#include "nef/complex/predicates_of_sets.h"
 #include "nef/construct/construct.h"
-#include "nef/query/predicates_of_sets.h"
 
 namespace nef {
 namespace {
@@ -81,7 +81,7 @@ Section section(const Polyhedron& a, const Rational3& normal, const Rational& of
   }
   const Polyhedron plane = boundary(make_halfspace(normal[0], normal[1], normal[2], offset, true, monitor), monitor);
   Section result;
-  result.set = intersect(a, plane, 1, monitor);
+  result.set = intersect(a, plane, monitor);
   const Polyhedron closed = closure(result.set, monitor);
   SectionReader(closed.complex(), normal, result).run();
   return result;

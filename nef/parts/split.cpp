@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "nef/base/union_find.h"
+#include "nef/complex/predicates_of_sets.h"
 #include "nef/polyhedron.h"
-#include "nef/query/predicates_of_sets.h"
 #include "nef/synthesis/complex_builder.h"
 
 namespace nef {

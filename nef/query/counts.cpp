@@ -3,9 +3,9 @@
 // What is counted: items and Euler numbers.
 #include <algorithm>
 
+#include "nef/complex/predicates_of_sets.h"
 #include "nef/polyhedron.h"
 #include "nef/query/measure.h"
-#include "nef/query/predicates_of_sets.h"
 #include "nef/query/shell_items.h"
 
 namespace nef {

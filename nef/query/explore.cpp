@@ -4,7 +4,7 @@
 #include <string>
 
 #include "nef/base/error.h"
-#include "nef/query/predicates_of_sets.h"
+#include "nef/complex/predicates_of_sets.h"
 
 namespace nef {
 

@@ -10,31 +10,18 @@
 namespace nef {
 namespace {
 
-Location location_of(const Complex& complex, const ComplexHit& hit) {
-  switch (hit.kind) {
-    case ComplexHit::Kind::kVertex:
-      return {Location::Kind::kVertex, hit.index, complex.mark(hit.vertex())};
-    case ComplexHit::Kind::kEdge:
-      return {Location::Kind::kEdge, hit.index, complex.svertex(hit.halfedge()).mark};
-    case ComplexHit::Kind::kFacet:
-      break;
-  }
-  const FacetId facet = facet_of(hit.halffacet());
-  return {Location::Kind::kFacet, facet.index(), complex.facets[facet].mark};
-}
+Location location_of(const Complex& complex, const ItemRef& item) { return {item, mark_of(complex, item)}; }
 
 }  // namespace
 
 Location locate(const Polyhedron& a, const Rational3& point, const Monitor& monitor) {
   const Complex& complex = a.complex();
-  if (complex.vertex_count() == 0) return {Location::Kind::kVolume, 0, complex.volumes[kOuterVolume].mark};
+  if (complex.vertex_count() == 0) return location_of(complex, ItemRef(kOuterVolume));
   PointTable table;
   const PointRef query{&table, table.push(point)};
   const QueryStructure& structure = a.queries();
-  if (const std::optional<ComplexHit> hit = structure.item_at(complex, query, monitor))
-    return location_of(complex, *hit);
-  const VolumeId volume = structure.volume_at(complex, query, monitor);
-  return {Location::Kind::kVolume, volume.index(), complex.volumes[volume].mark};
+  const ItemRef item = structure.item_at(complex, query, monitor);
+  return location_of(complex, item.valid() ? item : ItemRef(structure.volume_at(complex, query, monitor)));
 }
 
 bool contains(const Polyhedron& a, const Rational3& point, const Monitor& monitor) {
@@ -42,28 +29,8 @@ bool contains(const Polyhedron& a, const Rational3& point, const Monitor& monito
 }
 
 SphereMapBuffer local_pyramid(const Polyhedron& a, const Rational3& point, const Monitor& monitor) {
-  const Complex& complex = a.complex();
-  const Location where = locate(a, point, monitor);
   SphereMapBuffer result;
-  switch (where.kind) {
-    case Location::Kind::kVertex: {
-      result.assign(complex.sphere_map(where.vertex()));
-      break;
-    }
-    case Location::Kind::kEdge: {
-      const VertexId vertex = complex.source(where.halfedge());
-      edge_pyramid(complex.sphere_map(vertex), complex.halfedges(vertex).position(where.halfedge()), result);
-      break;
-    }
-    case Location::Kind::kFacet: {
-      const Facet& facet = complex.facets[where.facet()];
-      result.assign_circle(facet.plane, facet.mark, complex.volumes[facet.volume_above].mark,
-                           complex.volumes[facet.volume_below].mark);
-      break;
-    }
-    case Location::Kind::kVolume:
-      result.assign_trivial(where.mark);
-  }
+  pyramid_of(a.complex(), locate(a, point, monitor), result);
   return result;
 }
 
@@ -84,7 +51,7 @@ std::optional<RayHit> shoot_ray(const Polyhedron& a, const Rational3& origin, co
                              : hit.kind == ComplexHit::Kind::kEdge
                                  ? complex.planes.infimaximal(complex.svertex(hit.halfedge()).p) ||
                                        complex.planes.infimaximal(complex.svertex(hit.halfedge()).q)
-                                 : complex.planes.infimaximal(complex.facets[facet_of(hit.halffacet())].plane);
+                                 : complex.planes.infimaximal(complex.facets[hit.facet()].plane);
     return !at_infinity && (!accept || accept(location_of(complex, hit)));
   };
   RayHit result;

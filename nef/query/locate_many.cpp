@@ -17,10 +17,10 @@
 #include "nef/base/error.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/complex/item_boxes.h"
+#include "nef/complex/predicates_of_sets.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/location/facet_search.h"
 #include "nef/polyhedron.h"
-#include "nef/query/predicates_of_sets.h"
 
 namespace nef {
 namespace {
@@ -177,7 +177,7 @@ class CellGrid {
 
 }  // namespace
 
-std::vector<LabelId> locate_many(const Polyhedron& a, std::span<const std::array<double, 3>> points, unsigned threads,
+std::vector<LabelId> locate_many(const Polyhedron& a, std::span<const std::array<double, 3>> points,
                                  const Monitor& monitor) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!std::isfinite(points[i][0]) || !std::isfinite(points[i][1]) || !std::isfinite(points[i][2])) {
@@ -190,7 +190,7 @@ std::vector<LabelId> locate_many(const Polyhedron& a, std::span<const std::array
   static_cast<void>(a.queries());
   CellGrid grid(complex, points.size());
   constexpr std::size_t kChunk = 4096;
-  parallel_for((points.size() + kChunk - 1) / kChunk, threads, monitor, [&](std::size_t chunk, const Monitor& own) {
+  parallel_for((points.size() + kChunk - 1) / kChunk, monitor, [&](std::size_t chunk, const Monitor& own) {
     const std::size_t end = std::min(points.size(), (chunk + 1) * kChunk);
     for (std::size_t i = chunk * kChunk; i < end; ++i) marks[i] = grid.mark(a, points[i], own);
   });

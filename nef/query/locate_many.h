@@ -14,8 +14,8 @@ namespace nef {
 /// The mark of the set at each of many points, exactly: locate(a, p).mark for the rationals that the doubles are. The
 /// points must be finite numbers; throws InputError naming the first that is not. Regions of cells that no facet, edge
 /// or vertex enters are answered by one point location each, so far from the boundary a point costs some nanoseconds;
-/// near it, a point location. On up to `threads` threads (0: as many as the machine has).
+/// near it, a point location. On the threads of `monitor`.
 std::vector<LabelId> locate_many(const Polyhedron& a, std::span<const std::array<double, 3>> points,
-                                 unsigned threads = 1, const Monitor& monitor = {});
+                                 const Monitor& monitor = {});
 
 }  // namespace nef

@@ -12,6 +12,7 @@ std::string_view location_name(Location::Kind kind) {
     case Location::Kind::kFacet:
       return "facet";
     case Location::Kind::kVolume:
+    case Location::Kind::kNone:
       break;
   }
   return "volume";

@@ -12,10 +12,10 @@
 #include <limits>
 
 #include "nef/complex/facet_plane.h"
+#include "nef/complex/predicates_of_sets.h"
 #include "nef/polyhedron.h"
 #include "nef/query/measures/extreme_points.h"
 #include "nef/query/measures/rational_sum.h"
-#include "nef/query/predicates_of_sets.h"
 
 namespace nef {
 namespace {

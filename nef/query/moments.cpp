@@ -5,11 +5,11 @@
 //     integral of x = V / 4 sum v_i,   integral of x x^T = V / 20 (s s^T + sum v_i v_i^T),   s = sum v_i.
 #include "nef/query/moments.h"
 
+#include "nef/complex/predicates_of_sets.h"
 #include "nef/geometry/vectors.h"
 #include "nef/polyhedron.h"
 #include "nef/query/measure.h"
 #include "nef/query/measures/rational_sum.h"
-#include "nef/query/predicates_of_sets.h"
 
 namespace nef {
 namespace {

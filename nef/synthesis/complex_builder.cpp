@@ -132,17 +132,19 @@ void ComplexBuilder::push(const SphereMapView& map) {
 void ComplexBuilder::copy(const Complex& from, VertexId first, std::uint32_t count, std::span<const std::uint32_t> rows,
                           std::span<const LabelId> marks) {
   const CopiedRun run{&from, first, count, rows, marks};
-  copy(std::span(&run, 1), 1, monitor_);
+  copy(std::span(&run, 1), monitor_);
 }
 
 // Patterns keep their places for planes, so only where items begin changes, and the names of planes and marks. Each
 // array depends on nothing but the same array of the other complexes.
-void ComplexBuilder::copy(std::span<const CopiedRun> runs, unsigned threads, const Monitor& monitor) {
+void ComplexBuilder::copy(std::span<const CopiedRun> runs, const Monitor& monitor) {
   const auto all = [runs](const auto& copy_run) {
     for (const CopiedRun& run : runs) copy_run(run);
   };
+  std::size_t vertices = 0;
+  for (const CopiedRun& run : runs) vertices += run.count;
   // The longest array first.
-  parallel_calls(threads, monitor,
+  parallel_calls(for_vertices(vertices, monitor),
                  {[&](const Monitor&) { copy_records(runs); },
                   [&](const Monitor&) {
                     all([this](const CopiedRun& run) {
@@ -277,7 +279,7 @@ void ComplexBuilder::drop_idle_box(LabelId& outer) {
   if (!has_idle_box()) return;
   const Complex& c = complex_;
   ComplexBuilder kept(planes_, monitor_);
-  kept.reserve(c.vertex_count(), c.vertices.back());
+  kept.reserve(c.vertex_count(), c.vertices.back(), c.points.limbs_per_point());
   const VertexId end{c.vertex_count()};
   VertexId first{0};  // of the run of finite vertices
   for (VertexId v{0}; v <= end; ++v) {
@@ -293,18 +295,16 @@ void ComplexBuilder::drop_idle_box(LabelId& outer) {
 // Cascades would otherwise carry the planes of everything that ever was.
 void ComplexBuilder::drop_idle_planes() {
   Complex& c = complex_;
-  std::vector<bool> used(planes_.size(), false);
-  for_each_plane_of(c, [&used](PlaneId plane) { used[plane.row()] = true; });
-  const auto count = static_cast<std::size_t>(std::count(used.begin(), used.end(), true));
-  if (count == used.size()) return;
-  PlaneTable planes;
-  planes.reserve(count);
+  std::vector<std::uint8_t> used(planes_.size(), 0);
+  for_each_plane_of(c, [&used](PlaneId plane) { used[plane.row()] = 1; });
   std::vector<std::uint32_t> row(used.size(), kNone);
+  std::uint32_t count = 0;
   for (std::uint32_t i = 0; i < used.size(); ++i) {
-    if (used[i]) row[i] = planes.append_new(planes_, i);
+    if (used[i] != 0) row[i] = count++;
   }
+  if (count == used.size()) return;
   for_each_plane_of(c, [&row](PlaneId& plane) { rename(plane, row); });
-  planes_ = std::move(planes);
+  planes_.keep(used);
 }
 
 Complex ComplexBuilder::take() {
@@ -314,22 +314,22 @@ Complex ComplexBuilder::take() {
   return std::move(complex_);
 }
 
-Complex ComplexBuilder::finish(LabelId outer, unsigned threads) {
+Complex ComplexBuilder::finish(LabelId outer) {
   drop_idle_box(outer);
   drop_idle_planes();
-  return finish_unreduced(outer, threads);
+  return finish_unreduced(outer);
 }
 
-Complex ComplexBuilder::finish_unreduced(LabelId outer, unsigned threads) {
+Complex ComplexBuilder::finish_unreduced(LabelId outer) {
   Complex complex = take();
-  synthesize(complex, outer, threads, monitor_);
+  synthesize(complex, outer, monitor_);
   complex.trim();
   return complex;
 }
 
-Complex ComplexBuilder::finish(LabelId outer, KnownLinks&& known, unsigned threads) {
+Complex ComplexBuilder::finish(LabelId outer, KnownLinks&& known) {
   Complex complex = take();
-  synthesize(complex, outer, std::move(known), threads, monitor_);
+  synthesize(complex, outer, std::move(known), monitor_);
   complex.trim();
   return complex;
 }
@@ -351,7 +351,7 @@ std::variant<Complex, Defect> ComplexBuilder::try_finish(LabelId outer) {
 }
 
 std::variant<Complex, Defect> ComplexBuilder::try_finish_unreduced(LabelId outer) {
-  return complex_or_defect([&] { return finish_unreduced(outer, 1); });
+  return complex_or_defect([&] { return finish_unreduced(outer); });
 }
 
 }  // namespace nef

@@ -73,9 +73,9 @@ class ComplexBuilder {
     std::span<const std::uint32_t> rows;
     std::span<const LabelId> marks;
   };
-  /// The same for all of these, one after the other, on up to `threads` threads. The thread that calls need not be the
+  /// The same for all of these, one after the other. The thread that calls need not be the
   /// builder's, and brings its monitor.
-  void copy(std::span<const CopiedRun> runs, unsigned threads, const Monitor& monitor);
+  void copy(std::span<const CopiedRun> runs, const Monitor& monitor);
 
   /// Takes the vertices of a complex as they are, in place of those added so far.
   void take_vertices(Complex&& from);
@@ -91,11 +91,11 @@ class ComplexBuilder {
 
   /// Removes an infimaximal box that nothing reaches, drops planes that nothing uses, and synthesizes. `outer` is the
   /// mark of all of space if there are no vertices. To be called once. For sphere maps that must fit together: a
-  /// defect is a bug, and thrown as such. O(n log n), partly on up to `threads` threads.
-  [[nodiscard]] Complex finish(LabelId outer, unsigned threads = 1);
+  /// defect is a bug, and thrown as such. O(n log n), partly on the threads of its monitor.
+  [[nodiscard]] Complex finish(LabelId outer);
 
   /// The same complex, where some links are known: then there must be no idle box, and no plane that nothing uses.
-  [[nodiscard]] Complex finish(LabelId outer, KnownLinks&& known, unsigned threads = 1);
+  [[nodiscard]] Complex finish(LabelId outer, KnownLinks&& known);
 
   /// What finish() returns, or what is wrong with the sphere maps.
   [[nodiscard]] std::variant<Complex, Defect> try_finish(LabelId outer);
@@ -112,7 +112,7 @@ class ComplexBuilder {
   void drop_idle_box(LabelId& outer);
   void drop_idle_planes();
   Complex take();
-  Complex finish_unreduced(LabelId outer, unsigned threads);
+  Complex finish_unreduced(LabelId outer);
 
   PlaneTable& planes_;
   Monitor monitor_;

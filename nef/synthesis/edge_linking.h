@@ -10,7 +10,7 @@ namespace nef {
 /// complex.twin). Owners must be known. Both ends of an edge carry the same planes around them, so
 /// svertices are grouped by their two smallest planes (by their line where there are fewer), and
 /// only groups of more than two are sorted along their line. Expected O(n). The links do not depend on the threads.
-void link_edges(Complex& complex, unsigned threads, const Monitor& monitor);
+void link_edges(Complex& complex, const Monitor& monitor);
 
 /// The same where some twins are known, which are taken out of `known`. O(number of the others).
 void link_edges(Complex& complex, KnownLinks& known, const Monitor& monitor);

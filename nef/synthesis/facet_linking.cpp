@@ -343,9 +343,9 @@ Share everything(const Complex& c, const KnownLinks* known) {
   return all;
 }
 
-std::vector<Share> shares_of(const Complex& c, unsigned threads, const Monitor& monitor) {
+std::vector<Share> shares_of(const Complex& c, const Monitor& monitor) {
   const std::size_t rows = (c.planes.size() + kShares - 1) / kShares;
-  auto corners = shared_out<SHalfedgeId>(c.shalfedge_count(), threads, monitor, [&](std::size_t i, const auto& put) {
+  auto corners = shared_out<SHalfedgeId>(c.shalfedge_count(), monitor, [&](std::size_t i, const auto& put) {
     const SHalfedgeId e{i};
     const PlaneId plane = c.shalfedge_plane[e];
     if (!plane.flipped()) put(plane.row() / rows, e);
@@ -397,12 +397,12 @@ void put_together(std::vector<LinkedFacets>& parts, Complex& c) {
 }
 
 // Tells shalfedges and sloops their facets.
-void name_facets(Complex& c, unsigned threads, const Monitor& monitor) {
+void name_facets(Complex& c, const Monitor& monitor) {
   c.shalfedge_facet.assign(c.shalfedge_count(), HalffacetId());
   c.sloop_facet.assign(c.sloops.size(), HalffacetId());
   const std::size_t tasks = few(c) ? 1 : kShares;
   const std::size_t range = (c.facets.size() + tasks - 1) / tasks;
-  parallel_for(tasks, threads, monitor, [&](std::size_t k, const Monitor&) {
+  parallel_for(tasks, monitor, [&](std::size_t k, const Monitor&) {
     const FacetId end{std::min((k + 1) * range, c.facets.size())};
     for (FacetId f{k * range}; f < end; ++f) {
       const std::span<const SHalfedgeId> corners = c.corners_of(f);
@@ -417,30 +417,26 @@ void name_facets(Complex& c, unsigned threads, const Monitor& monitor) {
   });
 }
 
-void link(Complex& c, const KnownLinks* known, unsigned threads, const Monitor& monitor) {
+void link(Complex& c, const KnownLinks* known, const Monitor& monitor) {
   std::vector<Share> shares;
-  if (known != nullptr || threads == 1 || few(c)) {
+  if (known != nullptr || monitor.threads() == 1 || few(c)) {
     shares.push_back(everything(c, known));
   } else {
-    shares = shares_of(c, threads, monitor);
+    shares = shares_of(c, monitor);
   }
   IndexedVector<SHalfedgeId, std::uint8_t> done(c.shalfedge_count(), 0);
   std::vector<LinkedFacets> parts(shares.size());
-  parallel_for(shares.size(), threads, monitor, [&](std::size_t s, const Monitor& own) {
+  parallel_for(shares.size(), monitor, [&](std::size_t s, const Monitor& own) {
     parts[s] = FacetLinker(c, known, done, own).run(std::exchange(shares[s], {}));
   });
   put_together(parts, c);
-  name_facets(c, threads, monitor);
+  name_facets(c, monitor);
 }
 
 }  // namespace
 
-void link_facets(Complex& complex, unsigned threads, const Monitor& monitor) {
-  link(complex, nullptr, threads, monitor);
-}
+void link_facets(Complex& complex, const Monitor& monitor) { link(complex, nullptr, monitor); }
 
-void link_facets(Complex& complex, const KnownLinks& known, unsigned threads, const Monitor& monitor) {
-  link(complex, &known, threads, monitor);
-}
+void link_facets(Complex& complex, const KnownLinks& known, const Monitor& monitor) { link(complex, &known, monitor); }
 
 }  // namespace nef

@@ -16,8 +16,8 @@ void begin(std::size_t step, const Monitor& monitor) {
   monitor.tell_progress("synthesis", step - 1, 3);
 }
 
-void name_owners_and_labels(Complex& c, LabelId outer, unsigned threads, const Monitor& monitor) {
-  parallel_calls(threads, monitor,
+void name_owners_and_labels(Complex& c, LabelId outer, const Monitor& monitor) {
+  parallel_calls(monitor,
                  {[&](const Monitor&) { name_svertex_owners(c); }, [&](const Monitor&) { name_pair_owners(c); }});
   LabelId largest = 1;
   const auto take = [&largest](LabelId mark) {
@@ -31,30 +31,32 @@ void name_owners_and_labels(Complex& c, LabelId outer, unsigned threads, const M
 
 }  // namespace
 
-void synthesize(Complex& complex, LabelId outer, unsigned threads, const Monitor& monitor) {
-  name_owners_and_labels(complex, outer, threads, monitor);
+void synthesize(Complex& complex, LabelId outer, const Monitor& caller) {
+  const Monitor monitor = for_vertices(complex.vertex_count(), caller);
+  name_owners_and_labels(complex, outer, monitor);
   begin(1, monitor);
-  link_edges(complex, threads, monitor);
+  link_edges(complex, monitor);
   begin(2, monitor);
-  link_facets(complex, threads, monitor);
+  link_facets(complex, monitor);
   begin(3, monitor);
-  link_volumes(complex, outer, threads, monitor);
+  link_volumes(complex, outer, monitor);
   begin(4, monitor);
 }
 
-void synthesize(Complex& complex, LabelId outer, KnownLinks&& known, unsigned threads, const Monitor& monitor) {
-  name_owners_and_labels(complex, outer, threads, monitor);
+void synthesize(Complex& complex, LabelId outer, KnownLinks&& known, const Monitor& caller) {
+  const Monitor monitor = for_vertices(complex.vertex_count(), caller);
+  name_owners_and_labels(complex, outer, monitor);
   begin(1, monitor);
   link_edges(complex, known, monitor);
   begin(2, monitor);
   if (known.facets.empty() && known.loose_corners.empty() && known.loose_isolated.empty()) {
-    link_facets(complex, threads, monitor);
+    link_facets(complex, monitor);
   } else {
-    link_facets(complex, known, threads, monitor);
+    link_facets(complex, known, monitor);
   }
   begin(3, monitor);
   known = {};
-  link_volumes(complex, outer, threads, monitor);
+  link_volumes(complex, outer, monitor);
   begin(4, monitor);
 }
 

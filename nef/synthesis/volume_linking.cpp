@@ -24,8 +24,7 @@ namespace {
 
 class VolumeLinker {
  public:
-  VolumeLinker(Complex& complex, unsigned threads, const Monitor& monitor)
-      : c_(complex), threads_(threads), monitor_(monitor) {}
+  VolumeLinker(Complex& complex, const Monitor& monitor) : c_(complex), monitor_(monitor) {}
 
   void run() {
     join_sfaces();
@@ -39,18 +38,17 @@ class VolumeLinker {
   void join_sfaces() {
     sfaces_.reset(c_.sface_count());
     const std::size_t count = c_.facets.size();
-    if (threads_ == 1) {
+    if (monitor_.threads() == 1) {
       join_sfaces_of({FacetId{0}, static_cast<std::uint32_t>(count)}, sfaces_);
     } else {
       UnionFind others(c_.sface_count());
       const auto half = static_cast<std::uint32_t>(count / 2);
-      parallel_calls(threads_, monitor_,
-                     {[&](const Monitor&) {
-                        join_sfaces_of({FacetId{0}, half}, sfaces_);
-                      },
-                      [&](const Monitor&) {
-                        join_sfaces_of({FacetId{half}, static_cast<std::uint32_t>(count) - half}, others);
-                      }});
+      parallel_calls(monitor_, {[&](const Monitor&) {
+                                  join_sfaces_of({FacetId{0}, half}, sfaces_);
+                                },
+                                [&](const Monitor&) {
+                                  join_sfaces_of({FacetId{half}, static_cast<std::uint32_t>(count) - half}, others);
+                                }});
       for (std::uint32_t f = 0; f < others.size(); ++f) {
         const std::uint32_t root = others.find(f);
         if (root != f) sfaces_.unite(root, f);
@@ -134,20 +132,19 @@ class VolumeLinker {
       for (const VertexId v : range) found.add(c_.points, component(v), v, own);
     };
     Components all;
-    if (threads_ == 1) {
+    if (monitor_.threads() == 1) {
       of_range(c_.vertex_ids(), all, monitor_);
       return all;
     }
     Components others;
     const VertexId middle{c_.vertex_count() / 2};
     const VertexId end = c_.vertex_ids().end_id();
-    parallel_calls(threads_, monitor_,
-                   {[&](const Monitor& own) {
-                      of_range({VertexId{0}, middle}, all, own);
-                    },
-                    [&](const Monitor& own) {
-                      of_range({middle, end}, others, own);
-                    }});
+    parallel_calls(monitor_, {[&](const Monitor& own) {
+                                of_range({VertexId{0}, middle}, all, own);
+                              },
+                              [&](const Monitor& own) {
+                                of_range({middle, end}, others, own);
+                              }});
     for (const std::uint32_t id : others.ids) all.add(c_.points, id, others.lowest[id], monitor_);
     return all;
   }
@@ -234,8 +231,8 @@ class VolumeLinker {
       detail::require(hit->sface.valid(), "a ray comes out of a volume", {{"vertex", v}});
       return hit->sface;
     }
-    const SHalfedgeId corner = c_.corners_of(facet_of(hit->halffacet()))[0];
-    return c_.shalfedge_sfaces(corner)[is_below(hit->halffacet()) ? 1 : 0];
+    const SHalfedgeId corner = c_.corners_of(hit->facet())[0];
+    return c_.shalfedge_sfaces(corner)[is_below(hit->halffacet) ? 1 : 0];
   }
 
   void number_volumes() {
@@ -280,17 +277,16 @@ class VolumeLinker {
   void fill_shells(const std::vector<ShellId>& shell_of) {
     constexpr std::size_t kTogether = 16384;
     c_.sface_shell.resize(c_.sface_count());
-    parallel_for_ranges(c_.sface_count(), kTogether, threads_, monitor_,
+    parallel_for_ranges(c_.sface_count(), kTogether, monitor_,
                         [&](std::size_t first, std::size_t last, const Monitor&) {
                           for (const SFaceId f : IdRange(SFaceId{first}, SFaceId{last})) {
                             c_.sface_shell[f] = shell_of[root(f)];
                           }
                         });
-    name_sides_of_facets(c_, threads_, monitor_);
+    name_sides_of_facets(c_, monitor_);
   }
 
   Complex& c_;
-  unsigned threads_;
   Monitor monitor_;
   UnionFind sfaces_;
   UnionFind parts_;    // over representatives of sfaces_: components of the boundary
@@ -302,13 +298,13 @@ class VolumeLinker {
 
 }  // namespace
 
-void link_volumes(Complex& complex, LabelId outer, unsigned threads, const Monitor& monitor) {
+void link_volumes(Complex& complex, LabelId outer, const Monitor& monitor) {
   if (complex.vertex_count() == 0) {
     complex.volumes.assign(1, Volume{outer, ShellId{0}, 0});
     complex.shells.clear();
     return;
   }
-  VolumeLinker(complex, threads, monitor).run();
+  VolumeLinker(complex, monitor).run();
 }
 
 }  // namespace nef

@@ -140,7 +140,7 @@ void StepSequence::apply(BooleanOperator op, const Polyhedron& b, const Monitor&
   if (tiled_) {
     tiled_ = combined(op, *tiled_, b, monitor);
   } else {
-    plain_ = combined(op, plain_, b, 1U, monitor);
+    plain_ = combined(op, plain_, b, monitor);
   }
   left_ -= std::min<std::size_t>(left_, 1);
 }

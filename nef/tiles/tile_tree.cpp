@@ -25,7 +25,7 @@ TileRef TileRef::complement() const {
 Polyhedron in_two_marks(const Polyhedron& set, const Monitor& monitor) {
   if (set.complex().label_count <= 2) return set;
   const auto one_mark = [](LabelId x, LabelId) { return static_cast<LabelId>(x != 0 ? 1 : 0); };
-  return overlay(set, Polyhedron(), one_mark, 1, monitor);
+  return overlay(set, Polyhedron(), one_mark, monitor);
 }
 
 bool has_boundary(const SphereMapView& map) {

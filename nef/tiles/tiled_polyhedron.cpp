@@ -77,7 +77,7 @@ TileRef transformed(const TileRef& tree, const AffineMap& map, const std::array<
 TiledPolyhedron::TiledPolyhedron() : TiledPolyhedron(uniform_leaf(0), Tiling{}) {}
 
 TiledPolyhedron::TiledPolyhedron(const Polyhedron& set, const Tiling& tiling, const Monitor& monitor)
-    : TiledPolyhedron(subdivided(in_two_marks(set, monitor), tiling, tiling.threads, monitor), tiling) {}
+    : TiledPolyhedron(subdivided(in_two_marks(set, monitor), tiling, monitor), tiling) {}
 
 TiledPolyhedron::TiledPolyhedron(std::span<const Polyhedron> pieces, const Tiling& tiling, const Monitor& monitor)
     : TiledPolyhedron(union_in_tiles({.count = static_cast<std::uint32_t>(pieces.size()),
@@ -95,9 +95,7 @@ bool TiledPolyhedron::is_empty() const { return root_->node->kind == Kind::kUnif
 
 bool TiledPolyhedron::is_everything() const { return root_->node->kind == Kind::kUniform && root_->node->mark != 0; }
 
-Polyhedron TiledPolyhedron::polyhedron(const Monitor& monitor) const {
-  return glue_all_tiles(*root_, tiling_.threads, monitor);
-}
+Polyhedron TiledPolyhedron::polyhedron(const Monitor& monitor) const { return glue_all_tiles(*root_, monitor); }
 
 TiledPolyhedron unite(const TiledPolyhedron& a, const TiledPolyhedron& b, const Monitor& monitor) {
   return combine(a, b, kUnion, monitor);
@@ -169,16 +167,16 @@ std::optional<RayHit> shoot_ray(const TiledPolyhedron& a, const Rational3& origi
 }
 
 std::optional<Rational> volume(const TiledPolyhedron& a, const Monitor& monitor) {
-  return extent_of_tiles(a.tree(), true, false, a.tiling().threads, monitor).volume;
+  return extent_of_tiles(a.tree(), true, false, monitor).volume;
 }
 
 std::optional<std::array<Rational3, 2>> bounding_box(const TiledPolyhedron& a, const Monitor& monitor) {
-  const ExtentOfTiles extent = extent_of_tiles(a.tree(), false, true, a.tiling().threads, monitor);
+  const ExtentOfTiles extent = extent_of_tiles(a.tree(), false, true, monitor);
   return extent.bounded ? extent.box : bounding_box(a.polyhedron(monitor), monitor);
 }
 
 VolumeAndBox volume_and_bounding_box(const TiledPolyhedron& a, const Monitor& monitor) {
-  const ExtentOfTiles extent = extent_of_tiles(a.tree(), true, true, a.tiling().threads, monitor);
+  const ExtentOfTiles extent = extent_of_tiles(a.tree(), true, true, monitor);
   return {extent.volume, extent.bounded ? extent.box : bounding_box(a.polyhedron(monitor), monitor)};
 }
 

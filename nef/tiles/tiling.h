@@ -17,8 +17,6 @@ struct Tiling {
   /// A tile with more vertices is cut, where a plane can separate them; two neighbours of less than half of it together
   /// are joined. Small tiles make small versions and fast steps, large ones few files.
   std::size_t limit = 128;
-  /// Threads that work on tiles at once; 0: as many as the machine has. No result depends on it.
-  unsigned threads = 1;
   /// Keeps the tiles within its memory, others in files; null: all are in memory. No result depends on it.
   std::shared_ptr<TileStore> store = nullptr;
 };

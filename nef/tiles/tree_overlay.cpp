@@ -139,7 +139,7 @@ class TreeOverlay {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       if (!nodes[i].result && nodes[i].plane == nullptr) open.push_back(i);
     }
-    parallel_for(open.size(), tiling_.threads, monitor,
+    parallel_for(open.size(), monitor,
                  [&](std::size_t i, const Monitor& own) { nodes[open[i]].result = run(nodes[open[i]].task, own); });
     for (std::size_t i = nodes.size(); i-- > 0;) {
       Node& node = nodes[i];
@@ -171,10 +171,10 @@ class TreeOverlay {
     const auto marks = [&](LabelId x, LabelId y) {
       return static_cast<LabelId>(value((x != 0) != a.complemented, (y != 0) != b.complemented) ? 1 : 0);
     };
-    Polyhedron result = overlay(first, b.node->set(), marks, 1, monitor);
+    Polyhedron result = overlay(first, b.node->set(), marks, monitor);
     if (&result.complex() == &first.complex()) return {a.node, false};
     const bool large = result.complex().vertex_count() > tiling_.limit;
-    if (large && !uncut) return subdivided(result, tiling_, 1, monitor);
+    if (large && !uncut) return subdivided(result, tiling_, monitor);
     return tile_leaf(std::move(result), tiling_.store, large);
   }
 
@@ -250,7 +250,7 @@ TileRef overlay_trees(const TileRef& a, const TileRef& b, const TruthTable& f, c
                       const Monitor& monitor) {
   const TreeOverlay overlay(f, tiling);
   const TreeOverlay::Task task{a, b, true, Region{}};
-  return tiling.threads == 1 ? overlay.run(task, monitor) : overlay.run_in_parallel(task, monitor);
+  return monitor.threads() == 1 ? overlay.run(task, monitor) : overlay.run_in_parallel(task, monitor);
 }
 
 std::array<TileRef, 2> cut_tree(const TileRef& tree, const AxisPlane& plane, const Tiling& tiling,

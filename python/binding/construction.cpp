@@ -6,13 +6,15 @@
 
 #include <mutex>
 
+#include "apps/program/expression/expression.h"
 #include "binding/base/bindings.h"
 #include "binding/base/errors.h"
+#include "binding/base/mesh_options.h"
 #include "binding/meshes.h"
 #include "nef/construct/construct.h"
+#include "nef/import/repair.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/polyhedron.h"
-#include "nef/program/expression/expression.h"
 
 namespace nef::python {
 namespace {
@@ -38,9 +40,12 @@ Polyhedron polygon(const py::list& rings) {
 }
 
 Polyhedron solid_from_mesh(py::handle vertices, py::handle faces, bool strict, bool surface, bool check,
-                           const std::string& crossings) {
+                           const std::string& crossings, double close) {
   const auto mesh = std::make_shared<const Mesh>(mesh_from_arrays(vertices, faces));
-  MeshOptions options{strict, surface, check, crossings_from_text(crossings)};
+  MeshOptions options = mesh_options(crossings, close);
+  options.strict = strict;
+  options.as_surface = surface;
+  options.check = check;
   using Made = std::pair<Polyhedron, Messages>;
   const Made made =
       call(mesh->vertices.size() + mesh->face_count(), [mesh, options](const Monitor& monitor) mutable -> Made {
@@ -57,16 +62,51 @@ Polyhedron solid_from_mesh(py::handle vertices, py::handle faces, bool strict, b
   return made.first;
 }
 
-Polyhedron evaluate(const std::string& text) {
+py::object repaired(py::handle vertices, py::handle faces, bool strict, bool fill_holes, const std::string& crossings,
+                    double close) {
+  const auto mesh = std::make_shared<const Mesh>(mesh_from_arrays(vertices, faces));
+  const MeshOptions rule = mesh_options(crossings, close);
+  const RepairOptions options{.fill_holes = fill_holes,
+                              .close_percent = rule.close_percent,
+                              .crossings = rule.crossings,
+                              .strict = strict,
+                              .record = true};
+  const auto made = call(mesh->vertices.size() + mesh->face_count(), [mesh, options](const Monitor& monitor) {
+    return std::make_shared<const RepairedMesh>(repair_mesh(*mesh, options, monitor));
+  });
+  py::list fates;
+  for (const FaceFate fate : made->record.fates) fates.append(name(fate));
+  py::dict volumes;
+  if (made->resolved) {
+    for (const auto& [winding, entry] : made->resolved->volumes) {
+      if (entry.parts == 0) continue;
+      const py::object volume = result_of("Measured", py::make_tuple(entry.measured.value, entry.measured.error));
+      volumes[py::int_(winding)] = py::make_tuple(entry.parts, volume);
+    }
+  }
+  const bool solid = made->problem.empty();
+  warn(made->notes);
+  return result_of(
+      "Repair", py::make_tuple(solid ? py::cast(made->set) : py::none(),
+                               solid ? py::object(py::none())
+                                     : py::object(py::str(made->problem + advice_about(*made, options.close_percent))),
+                               made->done, fates, made->record.added, made->record.pieces.kept,
+                               made->record.pieces.dropped, volumes, made->holes, made->lid_share, made->has_lids));
+}
+
+Polyhedron evaluate(const std::string& text, const std::string& crossings, double close) {
+  const MeshOptions meshes = mesh_options(crossings, close);
   using Made = std::pair<Polyhedron, Messages>;
   // An expression may stand for any amount of work.
-  const Made made = call(kSmallCall, [text](const Monitor& monitor) -> Made {
+  const Made made = call(kSmallCall, [text, meshes](const Monitor& monitor) -> Made {
     std::mutex noting;
     Messages notes;
     ExpressionOptions options;
     options.load = [&](const std::string& path, const Monitor& watching) {
       Messages of_file;
-      Polyhedron set = read_polyhedron(path, {.monitor = watching}, &of_file);
+      MeshOptions watched = meshes;
+      watched.monitor = watching;
+      Polyhedron set = read_polyhedron(path, watched, &of_file);
       const std::lock_guard<std::mutex> lock(noting);
       notes.insert(notes.end(), of_file.begin(), of_file.end());
       return set;
@@ -85,7 +125,8 @@ Polyhedron evaluate(const std::string& text) {
 
 Polyhedron many(const std::vector<Polyhedron>& sets, unsigned threads, bool unite) {
   return call(items(sets), [=](const Monitor& monitor) {
-    return unite ? unite_all(sets, threads, monitor) : intersect_all(sets, threads, monitor);
+    const Monitor of_all = monitor.on_threads(threads);
+    return unite ? unite_all(sets, of_all) : intersect_all(sets, of_all);
   });
 }
 
@@ -106,7 +147,7 @@ Polyhedron overlay_labels(const Polyhedron& a, const Polyhedron& b, const py::fu
       // The overlay tabulates at least labels 0 and 1.
       return x < rows && y < columns ? (*table)[x * columns + y] : LabelId{0};
     };
-    return overlay(a, b, combined, 1, monitor);
+    return overlay(a, b, combined, monitor);
   });
 }
 
@@ -137,11 +178,14 @@ points: an array of shape (N, 3) of floats, integers or Fractions, or a sequence
 rings: a list of arrays of shape (N, 3). Raises InputError if the points do not lie in one plane exactly, or a ring
 touches or crosses itself.)");
   m.def("_from_mesh", &solid_from_mesh, py::arg("vertices"), py::arg("faces"), py::arg("strict"), py::arg("surface"),
-        py::arg("check"), py::arg("crossings"));
-  m.def("eval", &evaluate, py::arg("text"),
+        py::arg("check"), py::arg("crossings"), py::arg("close"));
+  m.def("_repair", &repaired, py::arg("vertices"), py::arg("faces"), py::arg("strict"), py::arg("fill_holes"),
+        py::arg("crossings"), py::arg("close"));
+  m.def("eval", &evaluate, py::arg("text"), py::arg("crossings") = "refuse", py::arg("close") = 0.0,
         R"doc(The set that an expression of ``nef eval`` spells: ``nef.eval("box(0,0,0, 2,2,2) - point(1, 1, 0.1)")``.
 
-Numbers in it are exact: 0.1 is one tenth. Raises InputError, whose `offset` is the place of the error.)doc");
+Numbers in it are exact: 0.1 is one tenth. crossings, close: as of from_mesh, for the mesh files that it names. Raises
+InputError, whose `offset` is the place of the error.)doc");
   m.def(
       "unite_all", [](const std::vector<Polyhedron>& sets, unsigned threads) { return many(sets, threads, true); },
       py::arg("sets"), py::arg("threads") = 1,

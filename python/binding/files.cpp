@@ -9,7 +9,9 @@
 
 #include "binding/base/bindings.h"
 #include "binding/base/errors.h"
+#include "binding/base/mesh_options.h"
 #include "binding/meshes.h"
+#include "nef/export/mesh_with_origins.h"
 #include "nef/export/to_mesh.h"
 #include "nef/io/native/native_binary.h"
 #include "nef/io/native/native_format.h"
@@ -25,16 +27,14 @@ std::string path_text(py::handle path) {
 
 namespace {
 
-Polyhedron read(py::handle path, bool strict, bool surface, const std::string& crossings) {
+Polyhedron read(py::handle path, bool strict, bool surface, const std::string& crossings, double close) {
   using Made = std::pair<Polyhedron, Messages>;
   const std::string file = path_text(path);
-  const Crossings rule = crossings_from_text(crossings);
-  const Made made = call(kSmallCall, [=](const Monitor& monitor) -> Made {
+  MeshOptions options = mesh_options(crossings, close);
+  options.strict = strict;
+  options.as_surface = surface;
+  const Made made = call(kSmallCall, [=](const Monitor& monitor) mutable -> Made {
     Messages messages;
-    MeshOptions options;
-    options.crossings = rule;
-    options.strict = strict;
-    options.as_surface = surface;
     options.monitor = monitor;
     Polyhedron set = read_polyhedron(file, options, &messages);
     return {std::move(set), std::move(messages)};
@@ -105,6 +105,21 @@ py::tuple mesh_of(const Polyhedron& a, bool polygons, bool exact, bool manifold,
   return mesh_to_arrays(std::move(made.mesh), !polygons);
 }
 
+py::object mesh_with_origins_of(const std::string& operation, const std::vector<Polyhedron>& sets, bool polygons,
+                                bool exact, unsigned threads) {
+  const Membership belongs = membership(operation);
+  MeshExportOptions options;
+  options.keep_polygons = polygons;
+  const MeshWithOrigins made = call(items(sets), [=](const Monitor& monitor) {
+    return mesh_with_origins(sets, belongs, options, monitor.on_threads(threads));
+  });
+  warn(made.lost);
+  const py::tuple arrays = exact ? mesh_to_arrays(made.mesh, !polygons) : mesh_to_arrays(nearest(made.mesh), !polygons);
+  py::list origins;
+  for (const InputSet& from : made.origins) origins.append(py::tuple(py::cast(from)));
+  return result_of("MeshWithOrigins", py::make_tuple(arrays[0], arrays[1], origins));
+}
+
 // CPU seconds of from_mesh and to_rounded_mesh without Python: what bench/python sets its own times against.
 py::tuple core_times(py::handle vertices, py::handle faces) {
   const Mesh mesh = mesh_from_arrays(vertices, faces);
@@ -133,12 +148,23 @@ Polyhedron from_bytes(const std::string& bytes) {
 
 void bind_files(py::module_& m, PolyhedronClass& c) {
   m.def("read", &read, py::arg("path"), py::arg("strict") = false, py::arg("surface") = false,
-        py::arg("crossings") = "refuse", R"(Reads a set from a file: .nef, .nef3 (CGAL's), .off, .obj, .stl, .ply.
+        py::arg("crossings") = "refuse", py::arg("close") = 0.0,
+        R"(Reads a set from a file: .nef, .nef3 (CGAL's), or a mesh in any of the formats that docs/nef.md lists.
 
 strict: refuse faces of meshes that are not exactly planar instead of triangulating them. surface: take a mesh as the
-union of its faces. crossings: what is inside of a mesh that crosses itself, as of from_mesh. What was done to the input is told by warnings; InputError names file, line and cause.)");
+union of its faces. crossings: what is inside of a mesh that crosses itself, and close: how large lids for its holes may
+be, as of from_mesh. What was done to the input is told by warnings; InputError names file, line and cause.)");
   m.def("from_bytes", &from_bytes, py::arg("bytes"),
         "The set that Polyhedron.to_bytes wrote, of this or an earlier version. Raises InputError for damaged bytes.");
+  m.def(
+      "mesh_with_origins", &mesh_with_origins_of, py::arg("operation"), py::arg("sets"), py::arg("polygons") = false,
+      py::arg("exact") = false, py::arg("threads") = 1,
+      R"(The boundary of a Boolean as a mesh, and which of the sets each face comes from, as `nef union --origins` has it.
+
+operation: "union", "intersection", "difference" (the first set without all others) or "symdiff" (the points of an odd
+number of sets). polygons, exact: as of Polyhedron.to_mesh. threads: 0 for as many as the machine has. Returns a
+MeshWithOrigins: vertices, faces and, for each face, the numbers of the sets on whose boundary it lies. Faces are cut
+where they pass from one set to another.)");
   m.def("_core_times", &core_times, py::arg("vertices"), py::arg("faces"));
   c.def("write", &write, py::arg("path"), py::arg("exact") = false, py::arg("binary") = false,
         py::arg("polygons") = true, py::arg("manifold") = false, py::arg("recenter") = false,

@@ -3,8 +3,8 @@
 // Measures of sets: exact ones in Fractions, whose digits grow with the set, and doubles with proven bounds, in O(n).
 #include <pybind11/stl.h>
 
+#include "apps/program/set_info.h"
 #include "binding/base/bindings.h"
-#include "nef/program/set_info.h"
 #include "nef/query/measures/approximate_volume.h"
 #include "nef/query/moments.h"
 
@@ -48,14 +48,14 @@ py::object box_of(const Polyhedron& a) {
 }
 
 py::object approximate_volume_of(const Polyhedron& a, unsigned threads) {
-  const MeasuredVolume found =
-      call(items(a), [a, threads](const Monitor& monitor) { return approximate_volume(a, threads, monitor); });
+  const MeasuredVolume found = call(
+      items(a), [a, threads](const Monitor& monitor) { return approximate_volume(a, monitor.on_threads(threads)); });
   return result_of("Measured", py::make_tuple(found.value, found.error));
 }
 
 py::object approximate_area_of(const Polyhedron& a, unsigned threads) {
   const MeasuredArea found =
-      call(items(a), [a, threads](const Monitor& monitor) { return approximate_area(a, threads, monitor); });
+      call(items(a), [a, threads](const Monitor& monitor) { return approximate_area(a, monitor.on_threads(threads)); });
   return result_of("Measured", py::make_tuple(found.value, found.error));
 }
 

@@ -2,7 +2,6 @@
 #include "binding/meshes.h"
 
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
 
 namespace nef::python {
 namespace {
@@ -67,13 +66,6 @@ py::object faces_of(std::span<const std::uint32_t> corners, std::span<const std:
 }
 
 }  // namespace
-
-Crossings crossings_from_text(const std::string& name) {
-  if (const std::optional<Crossings> rule = crossings_of_name(name)) return *rule;
-  std::string all;
-  for (const Crossings rule : kAllCrossings) all += (all.empty() ? "" : ", ") + std::string(nef::name(rule));
-  throw InputError("crossings takes one of " + all + "; not " + in_quotes(name));
-}
 
 Mesh mesh_from_arrays(py::handle vertices, py::handle faces) {
   Mesh mesh;

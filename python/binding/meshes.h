@@ -4,13 +4,9 @@
 #pragma once
 
 #include "binding/base/numbers.h"
-#include "nef/construct/crossings.h"
 #include "nef/export/to_mesh.h"
 
 namespace nef::python {
-
-/// The rule of that name. Throws InputError with the names that there are.
-Crossings crossings_from_text(const std::string& name);
 
 /// vertices: see to_points; faces: an integer array of shape (M, K), or a sequence of sequences of indices.
 Mesh mesh_from_arrays(py::handle vertices, py::handle faces);

@@ -7,6 +7,7 @@
 
 #include "binding/base/bindings.h"
 #include "binding/base/set_hash.h"
+#include "nef/parts/by_volume.h"
 #include "nef/parts/split.h"
 #include "nef/polyhedron.h"
 
@@ -39,7 +40,7 @@ AffineMap map_from(py::handle matrix) {
 namespace {
 
 using Unary = Polyhedron (*)(const Polyhedron&, const Monitor&);
-using Binary = Polyhedron (*)(const Polyhedron&, const Polyhedron&, unsigned threads, const Monitor&);
+using Binary = Polyhedron (*)(const Polyhedron&, const Polyhedron&, const Monitor&);
 
 auto unary(Unary operation) {
   return [operation](const Polyhedron& a) {
@@ -49,12 +50,12 @@ auto unary(Unary operation) {
 
 auto binary(Binary operation) {
   return [operation](const Polyhedron& a, const Polyhedron& b) {
-    return call(items(a) + items(b), [=](const Monitor& monitor) { return operation(a, b, 1, monitor); });
+    return call(items(a) + items(b), [=](const Monitor& monitor) { return operation(a, b, monitor); });
   };
 }
 
 bool is_subset(const Polyhedron& a, const Polyhedron& b) {
-  return call(items(a) + items(b), [=](const Monitor& monitor) { return subtract(a, b, 1, monitor).is_empty(); });
+  return call(items(a) + items(b), [=](const Monitor& monitor) { return subtract(a, b, monitor).is_empty(); });
 }
 
 bool is_same(const Polyhedron& a, const Polyhedron& b) {
@@ -73,10 +74,29 @@ AffineMap scaling(py::handle factors) {
   return AffineMap::scale({factor, factor, factor});
 }
 
-std::vector<Polyhedron> parts(const Polyhedron& a, const std::string& by) {
+void require_kind_of_parts(const std::string& by) {
   if (by != "components" && by != "volumes") throw py::value_error("by must be 'components' or 'volumes'");
+}
+
+std::vector<Polyhedron> all_parts(const Polyhedron& a, const std::string& by, const Monitor& monitor) {
+  return by == "volumes" ? split_volumes(a, monitor) : split(a, monitor);
+}
+
+std::vector<Polyhedron> parts(const Polyhedron& a, const std::string& by, const py::object& above) {
+  require_kind_of_parts(by);
+  std::optional<Rational> bound;
+  if (!above.is_none()) bound = to_rational(above);
+  return call(items(a), [a, by, bound](const Monitor& monitor) {
+    std::vector<Polyhedron> found = all_parts(a, by, monitor);
+    return bound ? pieces_above(std::move(found), *bound, monitor) : found;
+  });
+}
+
+Polyhedron largest_part(const Polyhedron& a, const std::string& by) {
+  require_kind_of_parts(by);
   return call(items(a), [a, by](const Monitor& monitor) {
-    return by == "volumes" ? split_volumes(a, monitor) : split(a, monitor);
+    const std::vector<Polyhedron> found = all_parts(a, by, monitor);
+    return found.empty() ? Polyhedron() : found[largest_piece(found, monitor)];
   });
 }
 
@@ -108,7 +128,7 @@ void bind_operations(PolyhedronClass& c) {
           "isdisjoint",
           [](const Polyhedron& a, const Polyhedron& b) {
             return call(items(a) + items(b),
-                        [=](const Monitor& monitor) { return intersect(a, b, 1, monitor).is_empty(); });
+                        [=](const Monitor& monitor) { return intersect(a, b, monitor).is_empty(); });
           },
           py::arg("other"), "True if no point is in both sets.")
       .def("__hash__", &set_hash, "The same for equal sets. O(number of vertices).")
@@ -145,11 +165,13 @@ Fractions give what they say and floats what they hold. Raises InputError if the
           R"(The set turned about an axis through the origin.
 
 The map is exactly orthogonal and rational; its angle is within `tolerance` degrees of the one given.)")
-      .def("split", &parts, py::arg("by") = "components",
+      .def("split", &parts, py::arg("by") = "components", py::arg("above") = py::none(),
            R"(The pieces of the set, a list of Polyhedron.
 
 by='components': connected components; what touches in a point of the set is one. by='volumes': for each connected open
-region of the set, the region and what the set has of its boundary.)");
+region of the set, the region and what the set has of its boundary. above: only pieces whose volume is above this one.)")
+      .def("largest_piece", &largest_part, py::arg("by") = "components",
+           "The piece of the largest volume of those that split gives, of several the first; empty if the set is.");
 }
 
 }  // namespace nef::python

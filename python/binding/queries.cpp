@@ -39,8 +39,9 @@ std::vector<LabelId> marks_at(const Polyhedron& a, py::handle points, unsigned t
     const auto* rows = reinterpret_cast<const std::array<double, 3>*>(doubles->data());
     // A copy, so that what happens to the array meanwhile does not matter.
     auto held = std::make_shared<std::vector<std::array<double, 3>>>(rows, rows + count);
-    return call(items(a) + count,
-                [a, held, threads](const Monitor& monitor) { return locate_many(a, *held, threads, monitor); });
+    return call(items(a) + count, [a, held, threads](const Monitor& monitor) {
+      return locate_many(a, *held, monitor.on_threads(threads));
+    });
   }
   auto exact = std::make_shared<std::vector<Rational3>>(to_points(points, "points"));
   return call(items(a) + exact->size(), [a, exact](const Monitor& monitor) {

@@ -10,6 +10,7 @@
 
 #include "binding/base/bindings.h"
 #include "binding/base/errors.h"
+#include "binding/base/mesh_options.h"
 #include "binding/meshes.h"
 #include "nef/query/location_name.h"
 #include "nef/tiles/import/mesh_tiles.h"
@@ -20,74 +21,93 @@
 namespace nef::python {
 namespace {
 
+// A set in tiles, and how many threads operations on it use.
+struct Tiles : TiledPolyhedron {
+  Tiles(TiledPolyhedron set, unsigned threads_of_operations)
+      : TiledPolyhedron(std::move(set)), threads(threads_of_operations) {}
+
+  unsigned threads;
+};
+
+// work(monitor) for a set and what is combined with it, without Python's lock.
+template <typename Work>
+auto call_with(const Tiles& a, std::size_t others, const Work& work) {
+  return call(items(a) + others,
+              [work, threads = a.threads](const Monitor& monitor) { return work(monitor.on_threads(threads)); });
+}
+
 using TiledUnary = TiledPolyhedron (*)(const TiledPolyhedron&, const Monitor&);
 using TiledBinary = TiledPolyhedron (*)(const TiledPolyhedron&, const TiledPolyhedron&, const Monitor&);
 using TiledWithPlain = TiledPolyhedron (*)(const TiledPolyhedron&, const Polyhedron&, const Monitor&);
 
 auto tiled_unary(TiledUnary operation) {
-  return [operation](const TiledPolyhedron& a) {
-    return call(items(a), [=](const Monitor& monitor) { return operation(a, monitor); });
+  return [operation](const Tiles& a) {
+    return Tiles(call_with(a, 0, [=](const Monitor& monitor) { return operation(a, monitor); }), a.threads);
   };
 }
 
 auto tiled_binary(TiledBinary operation) {
-  return [operation](const TiledPolyhedron& a, const TiledPolyhedron& b) {
-    return call(items(a) + items(b), [=](const Monitor& monitor) { return operation(a, b, monitor); });
+  return [operation](const Tiles& a, const Tiles& b) {
+    return Tiles(call_with(a, items(b), [=](const Monitor& monitor) { return operation(a, b, monitor); }), a.threads);
   };
 }
 
 auto with_plain(TiledWithPlain operation) {
-  return [operation](const TiledPolyhedron& a, const Polyhedron& b) {
-    return call(items(a) + items(b), [=](const Monitor& monitor) { return operation(a, b, monitor); });
+  return [operation](const Tiles& a, const Polyhedron& b) {
+    return Tiles(call_with(a, items(b), [=](const Monitor& monitor) { return operation(a, b, monitor); }), a.threads);
   };
 }
 
-Tiling tiling_of(std::size_t limit, unsigned threads) {
+Tiling tiling_of(std::size_t limit) {
   constexpr std::size_t kFewest = 32;
   if (limit < kFewest) throw py::value_error("limit must be at least 32 vertices");
-  return {.limit = limit, .threads = threads};
+  return {.limit = limit};
 }
 
-TiledPolyhedron cut(const Polyhedron& set, std::size_t limit, unsigned threads) {
-  const Tiling tiling = tiling_of(limit, threads);
-  return call(items(set), [=](const Monitor& monitor) { return TiledPolyhedron(set, tiling, monitor); });
+Tiles cut(const Polyhedron& set, std::size_t limit, unsigned threads) {
+  const Tiling tiling = tiling_of(limit);
+  return {call(items(set),
+               [=](const Monitor& monitor) { return TiledPolyhedron(set, tiling, monitor.on_threads(threads)); }),
+          threads};
 }
 
-TiledPolyhedron unite_in_tiles(const std::vector<Polyhedron>& sets, std::size_t limit, unsigned threads) {
-  const Tiling tiling = tiling_of(limit, threads);
-  return call(items(sets), [=](const Monitor& monitor) { return TiledPolyhedron(sets, tiling, monitor); });
+Tiles unite_in_tiles(const std::vector<Polyhedron>& sets, std::size_t limit, unsigned threads) {
+  const Tiling tiling = tiling_of(limit);
+  return {call(items(sets),
+               [=](const Monitor& monitor) { return TiledPolyhedron(sets, tiling, monitor.on_threads(threads)); }),
+          threads};
 }
 
-TiledPolyhedron cut_mesh(py::handle vertices, py::handle faces, bool strict, bool surface, std::size_t limit,
-                         unsigned threads, const std::string& crossings) {
-  const Tiling tiling = tiling_of(limit, threads);
+Tiles cut_mesh(py::handle vertices, py::handle faces, bool strict, bool surface, std::size_t limit, unsigned threads,
+               const std::string& crossings, double close) {
+  const Tiling tiling = tiling_of(limit);
   auto mesh = std::make_shared<const Mesh>(mesh_from_arrays(vertices, faces));
-  MeshOptions options;
+  MeshOptions options = mesh_options(crossings, close);
   options.strict = strict;
   options.as_surface = surface;
-  options.crossings = crossings_from_text(crossings);
   using Made = std::pair<TiledPolyhedron, Messages>;
   const Made made = call(mesh->face_count(), [=](const Monitor& monitor) mutable -> Made {
     if (mesh->vertices.empty() && mesh->face_count() == 0) return {TiledPolyhedron(Polyhedron(), tiling), {}};
     Messages messages;
-    options.monitor = monitor;
+    options.monitor = monitor.on_threads(threads);
     TiledPolyhedron set = tiles_from_mesh(*mesh, options, tiling, &messages);
     return {std::move(set), std::move(messages)};
   });
   warn(made.second);
-  return made.first;
+  return {made.first, threads};
 }
 
-TiledPolyhedron read_folder(py::handle path, const std::optional<std::uint64_t>& memory, unsigned threads) {
+Tiles read_folder(py::handle path, const std::optional<std::uint64_t>& memory, unsigned threads) {
   const std::string folder = path_text(path);
   // Reading a folder is never small: its files tell only later how large they are.
-  return call(kSmallCall, [=](const Monitor& monitor) {
+  TiledPolyhedron set = call(kSmallCall, [=](const Monitor& monitor) {
     const auto store = memory ? std::make_shared<TileStore>(std::filesystem::temp_directory_path(), *memory) : nullptr;
-    return read_tiles(folder, store, threads, monitor);
+    return read_tiles(folder, store, monitor.on_threads(threads));
   });
+  return {std::move(set), threads};
 }
 
-void write_folder(const TiledPolyhedron& a, py::handle path) {
+void write_folder(const Tiles& a, py::handle path) {
   const std::string folder = path_text(path);
   call(items(a), [=](const Monitor&) {
     write_tiles(folder, a);
@@ -100,18 +120,18 @@ py::object tiled_location(const Location& location) {
   return result_of("Location", py::make_tuple(location_name(location.kind), py::none(), location.mark != 0 ? 1 : 0));
 }
 
-py::object locate_in_tiles(const TiledPolyhedron& a, py::handle point) {
+py::object locate_in_tiles(const Tiles& a, py::handle point) {
   const Rational3 p = to_triple(point, "a point");
-  return tiled_location(call(items(a), [=](const Monitor& monitor) { return locate(a, p, monitor); }));
+  return tiled_location(call_with(a, 0, [=](const Monitor& monitor) { return locate(a, p, monitor); }));
 }
 
-py::object contained(const TiledPolyhedron& a, py::handle points) {
+py::object contained(const Tiles& a, py::handle points) {
   if (is_one_point(points)) {
     const Rational3 p = to_triple(points, "a point");
-    return py::bool_(call(items(a), [=](const Monitor& monitor) { return contains(a, p, monitor); }));
+    return py::bool_(call_with(a, 0, [=](const Monitor& monitor) { return contains(a, p, monitor); }));
   }
   const auto all = std::make_shared<const std::vector<Rational3>>(to_points(points, "points"));
-  const std::vector<bool> in = call(items(a) + all->size(), [=](const Monitor& monitor) {
+  const std::vector<bool> in = call_with(a, all->size(), [=](const Monitor& monitor) {
     std::vector<bool> result;
     for (const Rational3& p : *all) {
       monitor.check_interruption();
@@ -124,26 +144,26 @@ py::object contained(const TiledPolyhedron& a, py::handle points) {
   return result;
 }
 
-py::object ray_in_tiles(const TiledPolyhedron& a, py::handle origin, py::handle direction) {
+py::object ray_in_tiles(const Tiles& a, py::handle origin, py::handle direction) {
   const Rational3 from = to_triple(origin, "an origin");
   const Rational3 towards = to_triple(direction, "a direction");
-  const auto hit = call(items(a), [=](const Monitor& monitor) { return shoot_ray(a, from, towards, {}, monitor); });
+  const auto hit = call_with(a, 0, [=](const Monitor& monitor) { return shoot_ray(a, from, towards, {}, monitor); });
   if (!hit) return py::none();
   return result_of("RayHit", py::make_tuple(from_triple(hit->point), tiled_location(hit->location)));
 }
 
-py::object volume_of_tiles(const TiledPolyhedron& a) {
-  const std::optional<Rational> value = call(items(a), [=](const Monitor& monitor) { return volume(a, monitor); });
+py::object volume_of_tiles(const Tiles& a) {
+  const std::optional<Rational> value = call_with(a, 0, [=](const Monitor& monitor) { return volume(a, monitor); });
   return value ? to_fraction(*value) : py::none();
 }
 
-py::object box_of_tiles(const TiledPolyhedron& a) {
-  const auto box = call(items(a), [=](const Monitor& monitor) { return bounding_box(a, monitor); });
+py::object box_of_tiles(const Tiles& a) {
+  const auto box = call_with(a, 0, [=](const Monitor& monitor) { return bounding_box(a, monitor); });
   if (!box) return py::none();
   return py::make_tuple(from_triple((*box)[0]), from_triple((*box)[1]));
 }
 
-void bind_tiled_operators(py::class_<TiledPolyhedron>& c) {
+void bind_tiled_operators(py::class_<Tiles>& c) {
   const auto both = [&c](const char* name, TiledBinary tiled, TiledWithPlain plain, const char* text) {
     c.def(name, tiled_binary(tiled), py::is_operator(), text);
     c.def(name, with_plain(plain), py::is_operator(), text);
@@ -152,40 +172,37 @@ void bind_tiled_operators(py::class_<TiledPolyhedron>& c) {
   both("__and__", intersect, intersect, "Intersection.");
   both("__sub__", subtract, subtract, "Difference.");
   both("__xor__", symmetric_difference, symmetric_difference, "Symmetric difference.");
-  const auto same = [](const TiledPolyhedron& a, const TiledPolyhedron& b) {
-    return call(items(a) + items(b), [=](const Monitor& monitor) { return equal(a, b, monitor); });
+  const auto same = [](const Tiles& a, const Tiles& b) {
+    return call_with(a, items(b), [=](const Monitor& monitor) { return equal(a, b, monitor); });
   };
   c.def(
        "__invert__",
-       [](const TiledPolyhedron& a) { return call(items(a), [=](const Monitor&) { return complement(a); }); },
+       [](const Tiles& a) { return Tiles(call(items(a), [=](const Monitor&) { return complement(a); }), a.threads); },
        py::is_operator(), "Complement. O(1).")
       .def("__eq__", same, py::is_operator(), "True if both are the same set, however they are cut.")
       .def(
-          "__ne__", [same](const TiledPolyhedron& a, const TiledPolyhedron& b) { return !same(a, b); },
-          py::is_operator())
-      .def("__bool__", [](const TiledPolyhedron& a) { return !a.is_empty(); })
-      .def("__copy__", [](const TiledPolyhedron& a) { return a; })
-      .def("__deepcopy__", [](const TiledPolyhedron& a, const py::dict&) { return a; });
+          "__ne__", [same](const Tiles& a, const Tiles& b) { return !same(a, b); }, py::is_operator())
+      .def("__bool__", [](const Tiles& a) { return !a.is_empty(); })
+      .def("__copy__", [](const Tiles& a) { return a; })
+      .def("__deepcopy__", [](const Tiles& a, const py::dict&) { return a; });
   c.attr("__hash__") = py::none();
 }
 
-void bind_tiled_methods(py::class_<TiledPolyhedron>& c) {
+void bind_tiled_methods(py::class_<Tiles>& c) {
   c.def(
        "polyhedron",
-       [](const TiledPolyhedron& a) {
-         return call(items(a), [=](const Monitor& monitor) { return a.polyhedron(monitor); });
-       },
+       [](const Tiles& a) { return call_with(a, 0, [=](const Monitor& monitor) { return a.polyhedron(monitor); }); },
        "The set as a Polyhedron: glued, in an order that depends on the set alone.")
-      .def("is_empty", &TiledPolyhedron::is_empty, "True for the set without points. O(1).")
-      .def("is_everything", &TiledPolyhedron::is_everything, "True for all of space. O(1).")
-      .def("tile_count", &TiledPolyhedron::tile_count, "How many tiles hold boundary of the set.")
-      .def("vertex_count", &TiledPolyhedron::vertex_count, "Vertices of all tiles, those in their walls included.")
+      .def("is_empty", &Tiles::is_empty, "True for the set without points. O(1).")
+      .def("is_everything", &Tiles::is_everything, "True for all of space. O(1).")
+      .def("tile_count", &Tiles::tile_count, "How many tiles hold boundary of the set.")
+      .def("vertex_count", &Tiles::vertex_count, "Vertices of all tiles, those in their walls included.")
       .def("contains", &contained, py::arg("points"),
            R"(Whether points are in the set, exactly: a bool for three numbers, a bool array of shape (N,) for an array
 of shape (N, 3).)")
       .def(
           "__contains__",
-          [](const TiledPolyhedron& a, py::handle p) {
+          [](const Tiles& a, py::handle p) {
             const Rational3 point = to_triple(p, "a point");
             return call(items(a), [=](const Monitor&) { return contains(a, point); });
           },
@@ -203,9 +220,10 @@ of shape (N, 3).)")
       .def("regularize", tiled_unary(regularize), "The closure of the interior. Glues and cuts again.")
       .def(
           "transform",
-          [](const TiledPolyhedron& a, py::handle matrix) {
+          [](const Tiles& a, py::handle matrix) {
             const AffineMap map = map_from(matrix);
-            return call(items(a), [=](const Monitor& monitor) { return transform(a, map, monitor); });
+            return Tiles(call_with(a, 0, [=](const Monitor& monitor) { return transform(a, map, monitor); }),
+                         a.threads);
           },
           py::arg("matrix"), "The image under an affine map; tile by tile if it takes axes to axes.")
       .def(
@@ -217,7 +235,7 @@ stops half-way leaves the old set.)");
 }  // namespace
 
 void bind_tiles(py::module_& m) {
-  py::class_<TiledPolyhedron> c(m, "TiledPolyhedron", R"(An exact set that is kept in tiles.
+  py::class_<Tiles> c(m, "TiledPolyhedron", R"(An exact set that is kept in tiles.
 
 An operation costs what of the set it touches, and versions share the rest: for many small steps on a large set whose
 results are wanted one by one, and for sets larger than memory. Immutable. Operators are those of Polyhedron; the second
@@ -231,10 +249,10 @@ operand may be a Polyhedron. Labels other than 0 are taken as 1. Not hashable.)"
         py::arg("threads") = 1, "The union of many sets, region by region: a TiledPolyhedron.");
   m.def("tiles_from_mesh", &cut_mesh, py::arg("vertices"), py::arg("faces"), py::arg("strict") = false,
         py::arg("surface") = false, py::arg("limit") = Tiling().limit, py::arg("threads") = 1,
-        py::arg("crossings") = "refuse",
+        py::arg("crossings") = "refuse", py::arg("close") = 0.0,
         R"(The solid that a mesh bounds, cut before it is made a complex: a TiledPolyhedron.
 
-vertices, faces, strict, surface and crossings: as of from_mesh.)");
+vertices, faces, strict, surface, crossings and close: as of from_mesh.)");
   m.def("read_tiles", &read_folder, py::arg("path"), py::arg("memory") = py::none(), py::arg("threads") = 1,
         R"(Reads a folder that TiledPolyhedron.write, or the program `nef`, wrote.
 

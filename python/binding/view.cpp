@@ -3,9 +3,9 @@
 // Pictures and pages.
 #include <pybind11/stl.h>
 
+#include "apps/view/page.h"
+#include "apps/view/picture.h"
 #include "binding/base/bindings.h"
-#include "nef/view/page.h"
-#include "nef/view/picture.h"
 
 namespace nef::python {
 namespace {

@@ -24,19 +24,20 @@ import contextlib
 from typing import Callable, Iterator, Optional
 
 from . import _nef
-from ._nef import (Polyhedron, TiledPolyhedron, box, eval, everything, from_bytes, halfspace, hull, intersect_all, overlay,
-                   point, polygon, read, read_tiles, segment, tiles_from_mesh, unite_all, unite_in_tiles)
+from ._nef import (Polyhedron, TiledPolyhedron, box, eval, everything, from_bytes, halfspace, hull, intersect_all,
+                   mesh_with_origins, overlay, point, polygon, read, read_tiles, segment, tiles_from_mesh,
+                   unite_all, unite_in_tiles)
 from .errors import Error, InputError, UnsupportedError
-from .meshes import from_mesh
+from .meshes import from_mesh, repair
 from .notebook import show
-from .results import (ApproximateMoments, Counts, Distance, Location, Measured, Moments, Penetration, Polygon, RayHit, Reach,
-                      Section)
+from .results import (ApproximateMoments, Counts, Distance, Location, Measured, MeshWithOrigins, Millable, Moments, Penetration,
+                      Polygon, RayHit, Reach, Repair, Section)
 from . import meshes as _meshes, notebook as _notebook
 
 __all__ = [
-    "ApproximateMoments", "Counts", "Distance", "Error", "InputError", "Location", "Measured", "Moments", "Penetration", "Polygon", "Polyhedron",
-    "RayHit", "Reach", "Section", "TiledPolyhedron", "UnsupportedError", "box", "empty", "eval", "everything", "from_bytes", "from_mesh", "halfspace", "hull",
-    "intersect_all", "overlay", "point", "polygon", "progress", "read", "read_tiles", "segment", "show",
+    "ApproximateMoments", "Counts", "Distance", "Error", "InputError", "Location", "Measured", "MeshWithOrigins", "Millable", "Moments", "Penetration", "Polygon", "Polyhedron",
+    "RayHit", "Reach", "Repair", "Section", "TiledPolyhedron", "UnsupportedError", "box", "empty", "eval", "everything", "from_bytes", "from_mesh", "halfspace", "hull",
+    "intersect_all", "mesh_with_origins", "overlay", "point", "polygon", "progress", "read", "read_tiles", "repair", "segment", "show",
     "tiles_from_mesh", "unite_all", "unite_in_tiles",
 ]
 

@@ -6,6 +6,7 @@ import numpy
 
 from . import _nef
 from ._nef import Polyhedron
+from .results import Repair
 
 
 def _arrays_of(mesh):
@@ -56,7 +57,7 @@ def _indices(faces):
 
 
 def from_mesh(vertices: Any, faces: Any = None, *, strict: bool = False, surface: bool = False,
-              check: bool = True, crossings: str = "refuse") -> Polyhedron:
+              check: bool = True, crossings: str = "refuse", close: float = 0) -> Polyhedron:
     """The closed solid that a closed orientable mesh bounds.
 
     - vertices: array of shape (N, 3) of floats, integers or Fractions (dtype object); or, without `faces`, a mesh object:
@@ -70,20 +71,41 @@ def from_mesh(vertices: Any, faces: Any = None, *, strict: bool = False, surface
       together they are looked for nevertheless; others may go unseen and give a set that means nothing
     - crossings: what is inside of a closed mesh whose faces cross, or that encloses something several times, by winding
       numbers: "refuse" (an InputError), "union" (what is enclosed at least once), "nonzero" (also what is inside out),
-      "odd" (overlaps are cavities), "outside" (what cannot be reached from outside); a warning tells what was done.
-      "odd" and "outside" take faces that are turned in any way
+      "odd" (overlaps are cavities), "outside" (what cannot be reached from outside), "guess" (of that, what the faces of
+      a mesh with holes wind around by at least half: a guess); a warning tells what was done. "odd" and "outside" take
+      faces that are turned in any way
+    - close: if above 0, a mesh that bounds no solid is repaired as `nef repair --close` does it, and lids close its holes
+      if they have at most so many percent of the area of the mesh with its lids: a guess. A warning tells what was done
 
     A mesh that touches itself is legal; one without vertices and faces is the empty set (which a warning tells). Raises
     InputError for one that is open, inconsistently oriented or crosses itself, or has vertices but no faces; its
     `vertices`, `edges` and `faces` hold the guilty elements.
     """
+    return _nef._from_mesh(*_vertices_and_faces(vertices, faces), strict, surface, check, crossings, close)
+
+
+def repair(vertices: Any, faces: Any = None, *, crossings: str = "union", close: float = 0, fill_holes: bool = False,
+           strict: bool = False) -> Repair:
+    """The solid that a mesh means which bounds none as it is, and what became of each of its faces, as `nef repair` does it.
+
+    A mesh that bounds a solid is left alone. Otherwise doubled faces and those without area go, T-junctions close, faces are
+    turned to fit their neighbours and components outward; holes are closed if `close` (percent of the area, see from_mesh) or
+    `fill_holes` (planar ones, of any size) asks for it; what crosses itself then is resolved by the rule `crossings`. No vertex
+    moves.
+
+        >>> r = nef.repair([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
+        >>> r.set.volume(), r.done
+        (Fraction(1, 6), ['1 face turned to fit the neighbours'])
+    """
+    return _nef._repair(*_vertices_and_faces(vertices, faces), strict, fill_holes, crossings, close)
+
+
+def _vertices_and_faces(vertices, faces):
     if faces is None:
         vertices, faces = _arrays_of(vertices)
     else:
         faces = _indices(faces)
-    if not isinstance(vertices, numpy.ndarray):
-        vertices = list(vertices)
-    return _nef._from_mesh(vertices, faces, strict, surface, check, crossings)
+    return vertices if isinstance(vertices, numpy.ndarray) else list(vertices), faces
 
 
 def _with_offset(mesh, offset):

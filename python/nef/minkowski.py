@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Minkowski sums, erosions, openings, closings, offsets, sweeps, hulls, convex decompositions and configuration spaces;
-how deep two sets penetrate, where one fits beside the other, and what of a part a tool can reach. All exact.
+how deep two sets penetrate, where one fits beside the other, what of a part a tool can reach, and what it
+leaves around it. All exact.
 
     >>> import nef
     >>> from nef import minkowski
@@ -8,8 +9,8 @@ how deep two sets penetrate, where one fits beside the other, and what of a part
     >>> minkowski.sum(a, a) == a.scale(2)
     True
 """
-from ._minkowski import (ball, ball_error, closing, component, configuration_space, decompose, erode, hull, is_convex, negate,
-                         no_fit, offset, opening, penetration, reach, sum, sweep)
+from ._minkowski import (ball, ball_error, closing, component, configuration_space, decompose, erode, hull, is_convex, millable,
+                         negate, no_fit, offset, opening, penetration, reach, sum, sweep)
 
 __all__ = ["ball", "ball_error", "closing", "component", "configuration_space", "decompose", "erode", "hull", "is_convex",
-           "negate", "no_fit", "offset", "opening", "penetration", "reach", "sum", "sweep"]
+           "millable", "negate", "no_fit", "offset", "opening", "penetration", "reach", "sum", "sweep"]

@@ -11,6 +11,8 @@ is none.
     >>> plan.status, plan.thinness.piece                      # through a passage without any room beside it
     ('path', 1)
 """
+import os
+import time
 import warnings
 from fractions import Fraction
 from typing import Any, Callable, List, NamedTuple, Optional, Sequence, Tuple, Union
@@ -23,7 +25,7 @@ from .errors import Error, InputError
 
 Exact3 = Tuple[Fraction, Fraction, Fraction]
 
-__all__ = ["Cell", "Component", "Plan", "Proof", "Rotation", "Scene", "Thinness", "TightPassage", "TurningProof", "read"]
+__all__ = ["Cell", "CertifiedPath", "CollidingPose", "Component", "Plan", "Proof", "Rotation", "Scene", "Thinness", "TightPassage", "TurningProof", "read"]
 
 
 class Cell(NamedTuple):
@@ -75,6 +77,42 @@ class Proof(NamedTuple):
     goal_component: int
 
 
+class CollidingPose(NamedTuple):
+    """A pose of a path at which the robot collides."""
+
+    #: the motion, from way-point `motion` to the next one
+    motion: int
+    #: where on it: 0 at its beginning, 1 at its end
+    parameter: float
+    position: Exact3
+    #: w, x, y, z, of any length
+    quaternion: Tuple[Fraction, Fraction, Fraction, Fraction]
+
+
+class CertifiedPath:
+    """What is proved about a path of a rigid body. True if every motion is free.
+
+    - status: 'path' (no pose collides, between the way-points or at them), 'blocked' (one collides: `collision`) or
+      'undecided'
+    - collision: a CollidingPose of the first motion that collides, or None
+    - undecided: numbers of the motions that could not be decided; contact that is kept while turning is the usual cause
+    - touching: numbers of the free motions on which robot and obstacles touch, or come closer than doubles can tell
+    """
+
+    def __init__(self, status, collision, undecided, touching):
+        self.status = status
+        self.collision = None if collision is None else CollidingPose(*collision[:2], *collision[2])
+        self.undecided = undecided
+        self.touching = touching
+
+    def __bool__(self):
+        return self.status == "path"
+
+    def __repr__(self):
+        at = f", motion {self.collision.motion}" if self.collision else ""
+        return f"<nef.planner.CertifiedPath: {self.status}{at}>"
+
+
 class Rotation(NamedTuple):
     """How a robot may turn about its reference point."""
 
@@ -105,7 +143,7 @@ class Plan:
     """What came out of a question. True if it is a path.
 
     - status: 'path', 'infeasible', 'invalid_start', 'invalid_goal', 'blocked' (a given path leaves free space) or
-      'undecided' (only of a robot that turns: more cells of angles, or more time, may decide)
+      'undecided' (more time, or of a robot that turns more cells of angles, may decide)
     - motions: what the answer is about: 'translation' (at the orientation of the robot) or 'translation and turning'
     - waypoints: the path, a list of three Fractions each; None if there is none
     - turns: of a robot that turns, for each way-point the quaternion w, x, y, z of its rotation, of any length; else None
@@ -249,7 +287,7 @@ class Scene:
         - progress: a function of (phase, done, total); a total of 0 means that it is not known
         """
         if self._space is None:
-            self._space = _planner.Space(self._scene, threads, progress)
+            self._space = _planner.Space(self._scene, threads, progress, None)
         return self
 
     def free_space(self) -> Polyhedron:
@@ -278,8 +316,8 @@ class Scene:
         - min_dimension: only where free space is locally at least this thick
         - quick: the first way found, pulled a few times, rather than the shortest of several ways round
         - digits: round way-points to so many decimals where the motions stay free
-        - max_cells, seconds: only of a robot that turns: the range of angles is cut into so many cells at most (2000), and
-          the search ends after so long; what is not decided by then is 'undecided'
+        - seconds: the search ends after so long; what is not decided by then is 'undecided'
+        - max_cells: only of a robot that turns: the range of angles is cut into so many cells at most (2000)
         """
         scene = self._scene.with_ends(start, goal)
         if scene.start is None or scene.goal is None:
@@ -291,26 +329,65 @@ class Scene:
                 raise InputError("a plan of a robot that turns knows digits, max_cells and seconds only")
             answer = _planner.solve_turning(scene, 2000 if max_cells is None else max_cells, seconds, digits)
             return Plan(answer, "translation and turning")
-        if max_cells is not None or seconds is not None:
-            raise InputError("max_cells and seconds are for a robot that turns; the scene has no rotation")
+        if max_cells is not None:
+            raise InputError("max_cells is for a robot that turns; the scene has no rotation")
         if self._space is None:
             invalid = scene.invalid_end(scene.start, scene.goal)
             if invalid is not None:
                 return Plan(invalid)
         options = _planner.PathOptions(raw, clearance, roomy, min_dimension, quick, digits)
-        return Plan(self.build()._space.solve(scene.start, scene.goal, options))
+        began = time.monotonic()
+        if self._space is None and seconds is not None:
+            space = _planner.Space(self._scene, 1, None, seconds)
+            if not space.built:
+                return Plan({"status": "undecided"})
+            self._space = space
+        left = None if seconds is None else seconds - (time.monotonic() - began)
+        return Plan(self.build()._space.solve(scene.start, scene.goal, options, left))
 
     def check(self, waypoints: Any) -> Plan:
         """Whether a path stays in free space, exactly: a Plan, 'path' or 'blocked'. Of a robot that only translates."""
         return Plan(self.build()._space.check(waypoints))
 
+    def certify(self, path: Any) -> CertifiedPath:
+        """Whether a path of the robot as a rigid body collides: every motion is proved free, or a colliding pose is known.
 
-def read(path: Any) -> Scene:
-    """The scene of a file: JSON, or an OMPL.app problem (.cfg). What was done to its meshes is told by warnings."""
-    import os
+        - path: a list of (position, quaternion), quaternions as w, x, y, z of any length; a Plan; or a file of poses as
+          planner --path takes it. Between two poses the position goes straight, and the rotation evenly along the
+          shorter arc
 
+        The robot is as it is in its own file; the rotation of the scene, if it has one, does not bound the path.
+
+            >>> import nef
+            >>> from nef import planner
+            >>> bar = nef.box((-2, "-1/4", "-1/4"), (2, "1/4", "1/4"))
+            >>> scene = planner.Scene(bar, [nef.box((1, 1, -1), (2, 2, 1))])
+            >>> turn = [((0, 0, 0), (1, 0, 0, 0)), ((0, 0, 0), (1, 0, 0, 1))]     # a quarter turn about z
+            >>> scene.certify(turn).collision.motion
+            0
+        """
+        if isinstance(path, (str, os.PathLike)):
+            poses = _planner.read_poses(os.fspath(path))
+            if poses is None:
+                raise InputError(f"{os.fspath(path)}: no pose is turned: use check()")
+        elif isinstance(path, Plan):
+            if path.waypoints is None:
+                raise Error(f"there is no path: {path.status}")
+            turns = path.turns or [(1, 0, 0, 0)] * len(path.waypoints)
+            poses = list(zip(path.waypoints, turns))
+        else:
+            poses = [(tuple(position), tuple(quaternion)) for position, quaternion in path]
+        return CertifiedPath(*self._scene.certify(poses))
+
+
+def read(path: Any, *, crossings: str = "union", close: float = 0) -> Scene:
+    """The scene of a file: JSON, or an OMPL.app problem (.cfg). What was done to its meshes is told by warnings.
+
+    crossings, close: how its meshes are read, as of nef.from_mesh. A mesh that bounds no solid by that is taken as what it
+    means, maybe as a surface; with crossings="refuse" it is an InputError.
+    """
     scene = Scene.__new__(Scene)
-    scene._scene = _planner.read(os.fspath(path))
+    scene._scene = _planner.read(os.fspath(path), crossings, close)
     scene._space = None
     for message in scene.messages:
         warnings.warn(message, stacklevel=2)

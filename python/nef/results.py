@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """What queries answer. All are named tuples; numbers are fractions.Fraction where they are exact."""
-from typing import NamedTuple
+from typing import NamedTuple, Optional
 
 
 class Location(NamedTuple):
@@ -73,6 +73,45 @@ class Penetration(NamedTuple):
     squared_length: object
 
 
+class Repair(NamedTuple):
+    """What a repair has made of a mesh."""
+
+    #: the solid, a Polyhedron; None if the mesh bounds none still
+    set: object
+    #: why it bounds none, and what to do; None if it bounds one
+    problem: Optional[str]
+    #: a line for each kind of change; empty if nothing was changed
+    done: list
+    #: of each face of the mesh, then of those that were added: 'kept', 'turned', 'cut' (it crosses others), 'inside' (nothing
+    #: of it is left), 'copy' (another one has its corners), 'no_area' or 'added'
+    faces: list
+    #: the corners of faces that were added, vertices of the mesh
+    added: list
+    #: of faces that were cut, what is in the boundary of the solid, a Polyhedron
+    cut_kept: object
+    #: and what is not
+    cut_off: object
+    #: {winding number: (how many parts, their volume as Measured)}, if the rule for crossings decided
+    volumes: dict
+    #: how many holes the surface had
+    holes: int
+    #: the share of lids for all of them in the area of the mesh with its lids, with close=
+    lid_share: float
+    #: whether they were closed, which is a guess
+    has_lids: bool
+
+
+class MeshWithOrigins(NamedTuple):
+    """The boundary of a Boolean of sets, and which of them each face comes from."""
+
+    #: array of shape (N, 3)
+    vertices: object
+    #: array of shape (M, 3), or a list of M arrays
+    faces: object
+    #: of each face, a tuple of the numbers of the sets on whose boundary it lies
+    origins: list
+
+
 class Reach(NamedTuple):
     """Where a tool can go, and what it can touch there."""
 
@@ -82,6 +121,15 @@ class Reach(NamedTuple):
     touched: object
     #: the rest of that boundary, a Polyhedron
     untouched: object
+
+
+class Millable(NamedTuple):
+    """What a milling tool leaves of the material around a part."""
+
+    #: closed, holds the part, and is the part wherever the tool reaches, a Polyhedron
+    shape: object
+    #: what that has beyond the part, a list of closed solids by descending volume
+    unreached: object
 
 
 class Measured(NamedTuple):

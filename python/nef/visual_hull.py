@@ -17,7 +17,7 @@ from .errors import InputError
 
 Progress = Optional[Callable[[str, str, int, int], object]]
 
-__all__ = ["Hull", "View", "compute", "read"]
+__all__ = ["Hull", "Masks", "RefinedView", "Refinement", "View", "compute", "masks", "read", "refine"]
 
 
 class View(NamedTuple):
@@ -115,3 +115,91 @@ def read(path: Any, *, box: Any = None, tolerance: float = 0, half_pixels: bool 
     NeRF's transforms.json, COLMAP, Middlebury, matrices); see compute for the rest."""
     options = _visual_hull.Options(tolerance, half_pixels, unknown_beyond, box, verify, threads)
     return _hull(_visual_hull.from_file(os.fspath(path), options, progress))
+
+
+class RefinedView(NamedTuple):
+    """What has become of the camera of one view. Pixels are means over the view's outline."""
+
+    name: str
+    #: by how many pixels the image of the object has moved (root mean square), similarities of space aside
+    moved: float
+    #: by how many degrees the camera has turned towards the object
+    turned: float
+    #: pixels by which the outline is off, before and after
+    before: float
+    after: float
+    #: "camera": it stood elsewhere and was moved; "mask": it disagrees wherever its camera stands; None
+    fault: Optional[str]
+
+
+class Refinement(NamedTuple):
+    """Cameras from silhouettes."""
+
+    #: matrices of shape (3, 4), to be given to compute
+    cameras: List[Any]
+    #: whether they are other than those given
+    accepted: bool
+    #: what was free: "turntable", "angles", "views", or "none"
+    model: str
+    #: pixels by which outlines are off (mean), before and after
+    residual: Tuple[float, float]
+    #: the same of pieces of outlines that the fit did not use
+    held_out: Tuple[float, float]
+    #: focal length of the first camera, in pixels
+    focal: float
+    #: what the silhouettes do not determine, in words
+    undetermined: List[str]
+    #: a list of RefinedView
+    views: List[RefinedView]
+
+
+def refine(masks: Sequence[Any], cameras: Optional[Sequence[Any]] = None, names: Optional[Sequence[str]] = None, *,
+           half_pixels: bool = False, threads: int = 1) -> Refinement:
+    """Cameras corrected so that the silhouettes agree, if pieces of outlines that were not used for that agree, too;
+    otherwise those given. The result does not depend on the number of threads.
+
+    - masks, names, half_pixels, threads: as compute has them
+    - cameras: as compute has them; None: the masks are of one full turn of a turntable in equal steps of which nothing
+      else is known, with square pixels; the camera then stands at a distance of about 1 from the axis, which is z
+
+    Raises InputError for an empty mask, a matrix that is no camera, or too few views.
+    """
+    masks = [(numpy.asarray(mask) != 0).astype(numpy.uint8) for mask in masks]
+    names = [f"view {i}" for i in range(len(masks))] if names is None else [str(name) for name in names]
+    given = None if cameras is None else [numpy.asarray(camera).tolist() for camera in cameras]
+    if len(masks) != len(names) or (given is not None and len(given) != len(masks)):
+        raise ValueError(f"{len(masks)} masks need as many cameras and names")
+    try:
+        answer = _visual_hull.refine(names, masks, given, half_pixels, threads)
+    except InputError as error:
+        raise _told(error, names) from None
+    matrices = [numpy.array(camera) for camera in answer["cameras"]]
+    if not answer["accepted"] and cameras is not None:
+        matrices = list(cameras)
+    return Refinement(matrices, answer["accepted"], answer["model"], answer["residual"], answer["held_out"],
+                      answer["focal"], answer["undetermined"], [RefinedView(*view) for view in answer["views"]])
+
+
+class Masks(NamedTuple):
+    """Masks of photographs."""
+
+    #: arrays of shape (H, W), True where the object is
+    masks: List[Any]
+    #: how clearly both sides of each outline differ; 0: not at all
+    quality: List[float]
+    #: how they were made
+    chosen: str
+    #: masks to be looked at, and why; they are warnings, too
+    notes: Sequence[str]
+
+
+def masks(photographs: Sequence[Any], method: str = "auto", *, threads: int = 1) -> Masks:
+    """Cuts one object out of photographs (files), by one rule for all: `method` is what `visual_hull --mask` takes
+    ("auto", "threshold:red-blue", "background:median", "key:green", "grabcut", ...).
+
+    Raises InputError for a photograph that cannot be read, and for a method that is none.
+    """
+    answer = Masks(*_visual_hull.masks([os.fspath(file) for file in photographs], method, threads))
+    for note in answer.notes:
+        warnings.warn(note, stacklevel=2)
+    return answer

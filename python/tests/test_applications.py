@@ -117,6 +117,42 @@ def test_no_fit_and_reach(needs):
         minkowski.reach(CUBE, hollow, start=(1, 1, 1))
 
 
+def test_how_sums_are_made(needs):
+    minkowski = needs("minkowski")
+    part = nef.box((0, 0, 0), (3, 3, 3)) - nef.box((1, 1, 1), (4, 4, 4)).interior()
+    sums = []
+    for union, chosen in ("auto", "convolution"), ("convolution", "convolution"), ("queue", "queue"):
+        report = {}
+        sums.append(minkowski.sum(part, part, threads=2, union=union, report=report))
+        assert [entry["chosen"] for entry in report["strategies"]] == [chosen]
+        assert report["strategies"][0]["why"] and report["seconds"] >= 0
+        assert (report["cells"] == (0, 0)) == (chosen == "convolution")
+        assert (report["convolution"]["facets"] > 0) == (chosen == "convolution")
+    assert sums[0] == sums[1] == sums[2]
+    report = {}
+    minkowski.opening(part, CUBE, report=report)
+    assert len(report["strategies"]) == 2
+    with pytest.raises(ValueError):
+        minkowski.sum(part, part, union="cells")
+    with pytest.raises(TypeError):
+        minkowski.sum(part, part, report=[])
+
+
+def test_millable(needs):
+    minkowski = needs("minkowski")
+    undercut = nef.box((3, 0, 1), (5, 2, 2))
+    narrow = nef.box((7, 0, 1), ("7.5", 2, 4))
+    part = nef.box((0, 0, 0), (9, 2, 4)) - nef.box((1, -1, 1), (3, 3, 5)).interior() - undercut - narrow
+    found = minkowski.millable(part, CUBE, axes=3)
+    assert found.unreached == [undercut, narrow] and found.shape == part | undercut | narrow
+    found = minkowski.millable(part, CUBE)
+    assert found.unreached == [narrow] and found.shape == (part | narrow).closure()
+    with pytest.raises(ValueError):
+        minkowski.millable(part, CUBE, axes=5)
+    with pytest.raises(nef.InputError):
+        minkowski.millable(part, nef.point((0, 0, 0)))
+
+
 def test_offset(needs):
     minkowski = needs("minkowski")
     ball = minkowski.ball(2, detail=3)
@@ -221,6 +257,70 @@ def test_visual_hull(needs):
         visual_hull.compute([mask], [numpy.zeros((3, 4))])
     with pytest.raises(ValueError):
         visual_hull.compute([mask], cameras)
+
+
+def turntable_of_balls(count, focal=300, distance=4, shape=(200, 240)):
+    """Masks and cameras of a few balls on a turntable."""
+    balls = [((0, 0, 0), .5), ((.5, .2, .3), .3), ((-.3, .5, -.3), .35), ((.1, -.6, .2), .25), ((.2, .1, .7), .2)]
+    v, u = numpy.mgrid[0:shape[0], 0:shape[1]]
+    masks, cameras = [], []
+    for i in range(count):
+        azimuth, elevation = 2 * numpy.pi * i / count, .35
+        eye = distance * numpy.array([numpy.cos(azimuth) * numpy.cos(elevation),
+                                      numpy.sin(azimuth) * numpy.cos(elevation), numpy.sin(elevation)])
+        ahead = -eye / distance
+        right = numpy.cross(ahead, (0, 0, 1))
+        right /= numpy.linalg.norm(right)
+        rows = numpy.stack([right, numpy.cross(ahead, right), ahead])
+        k = numpy.array([[focal, 0, (shape[1] - 1) / 2], [0, focal, (shape[0] - 1) / 2], [0, 0, 1]])
+        cameras.append(k @ numpy.column_stack([rows, -rows @ eye]))
+        rays = numpy.stack([u, v, numpy.ones(shape)], -1) @ numpy.linalg.inv(k @ rows).T
+        mask = numpy.zeros(shape, bool)
+        for centre, radius in balls:
+            away = eye - centre
+            b = rays @ away
+            mask |= b * b >= (rays * rays).sum(-1) * (away @ away - radius * radius)
+        masks.append(mask)
+    return masks, cameras
+
+
+def test_cameras_from_silhouettes(needs):
+    visual_hull = needs("visual_hull")
+    masks, cameras = turntable_of_balls(12)
+    right = visual_hull.refine(masks, cameras)
+    assert not right.accepted and right.model == "none" and right.residual[0] == right.residual[1] < .1
+    assert all(numpy.array_equal(a, b) for a, b in zip(right.cameras, cameras))
+    off = [numpy.array(camera) for camera in cameras]
+    off[4][0] += 4 * off[4][2]  # by four pixels
+    refined = visual_hull.refine(masks, off, names=list("abcdefghijkl"))
+    assert refined.accepted and [view.name for view in refined.views if view.fault] == ["e"]
+    assert refined.residual[1] < refined.residual[0] / 2 and refined.held_out[1] < refined.held_out[0] / 2
+    found = visual_hull.refine(masks)
+    assert found.accepted and found.model == "turntable" and found.residual[1] < .1
+    assert abs(found.focal / 300 - 1) < .03
+    hull = visual_hull.compute(masks, found.cameras, tolerance=1)
+    truth = visual_hull.compute(masks, cameras, tolerance=1)
+    assert all(view.inside for view in hull.views)
+    eye = -numpy.linalg.solve(found.cameras[0][:, :3], found.cameras[0][:, 3])
+    scale = 4 * numpy.cos(.35) / numpy.hypot(eye[0], eye[1])  # by the distance from the axis, which is z
+    assert abs(hull.solid.approximate_volume().value * scale ** 3 / truth.solid.approximate_volume().value - 1) < .05
+    with pytest.raises(nef.InputError, match="five images"):
+        visual_hull.refine(masks[:3])
+    with pytest.raises(ValueError):
+        visual_hull.refine(masks, cameras[:3])
+
+
+def test_masks_of_photographs(needs, tmp_path):
+    visual_hull = needs("visual_hull")
+    photograph = numpy.full((60, 80, 3), 40, numpy.uint8)
+    photograph[20:40, 30:60] = (200, 180, 190)
+    file = tmp_path / "photograph.ppm"
+    file.write_bytes(b"P6 80 60 255 " + photograph.tobytes())
+    made = visual_hull.masks([file])
+    assert made.chosen and made.masks[0].shape == (60, 80) and made.masks[0][20:40, 30:60].mean() > .95
+    assert made.masks[0].sum() == pytest.approx(600, abs=40)
+    with pytest.raises(nef.InputError):
+        visual_hull.masks([tmp_path / "nowhere.png"])
 
 
 def test_visual_hull_of_files(needs):

@@ -116,8 +116,86 @@ def test_crossings():
                          ("outside", 2 - overlap)):
         with pytest.warns(UserWarning, match="6 pairs of faces cross"):
             assert nef.from_mesh(corners, squares, crossings=rule).volume() == volume
-    with pytest.raises(nef.InputError, match="refuse, union, nonzero, odd, outside; not 'both'"):
+    with pytest.raises(nef.InputError, match="refuse, union, nonzero, odd, outside, guess; not 'both'"):
         nef.from_mesh(corners, squares, crossings="both")
+
+
+def test_repair():
+    cube = nef.box((0, 0, 0), (1, 1, 1))
+    sound = nef.repair(CORNERS, SQUARES)
+    assert sound.set == cube and sound.problem is None and sound.done == [] and sound.faces == 6 * ["kept"]
+    turned = nef.repair(CORNERS, [SQUARES[0][::-1]] + SQUARES[1:] + [SQUARES[2]])
+    assert turned.set == cube and turned.faces == ["turned"] + 5 * ["kept"] + ["copy"]
+    assert turned.done == ["1 face with the corners of another dropped", "1 face turned to fit the neighbours"]
+
+    corners = CORNERS + [[x + Fraction(1, 2) for x in v] for v in CORNERS]
+    squares = SQUARES + [[v + 8 for v in face] for face in SQUARES]
+    both = cube | cube.translate((Fraction(1, 2),) * 3)
+    crossing = nef.repair(corners, squares)
+    assert crossing.set == both and sorted(set(crossing.faces)) == ["cut", "kept"] and crossing.faces.count("cut") == 6
+    # Of each side that is cut, a quarter is inside of the other cube.
+    assert crossing.cut_kept.surface_area() == 6 * 0.75 and crossing.cut_off.surface_area() == 6 * 0.25
+    assert crossing.cut_kept <= both.boundary() and crossing.cut_off.isdisjoint(both.boundary())
+    assert {winding: parts for winding, (parts, _) in crossing.volumes.items()} == {1: 2, 2: 1}
+    assert abs(crossing.volumes[2][1].value - 0.125) <= crossing.volumes[2][1].error
+    refused = nef.repair(corners, squares, crossings="refuse")
+    assert refused.set is None and "cross" in refused.problem
+
+    is_open = nef.repair(CORNERS, SQUARES[:5], close=10)
+    assert is_open.set is None and is_open.holes == 1 and not is_open.has_lids
+    assert "--close=17" in is_open.problem and abs(is_open.lid_share - 1 / 6) < 1e-9
+    closed = nef.repair(CORNERS, SQUARES[:5], close=20)
+    assert closed.set == cube and closed.has_lids and closed.faces == 5 * ["kept"] + ["added"]
+    assert len(closed.added) == 1 and sorted(closed.added[0]) == sorted(SQUARES[5])
+    assert nef.repair(CORNERS, SQUARES[:5], fill_holes=True).set == cube
+    with pytest.raises(nef.InputError, match="not 'both'"):
+        nef.repair(corners, squares, crossings="both")
+
+
+def test_mesh_with_origins():
+    block, pocket = nef.box((0, 0, 0), (4, 4, 4)), nef.box((1, 1, 2), (3, 3, 4))
+    with pytest.warns(UserWarning, match="closed"):
+        vertices, faces, origins = nef.mesh_with_origins("difference", [block, pocket], polygons=True, exact=True)
+    # The sides and the floor of the pocket; the ring around its mouth is cut into triangles.
+    cut = [vertices[face] for face, origin in zip(faces, origins) if origin == (1,)]
+    assert len(cut) == 5 and len(faces) > 10 and {origin for origin in origins} == {(0,), (1,)}
+    assert all((1 <= corners[:, :2]).all() and (corners[:, :2] <= 3).all() for corners in cut)
+    assert nef.from_mesh(vertices, faces) == (block - pocket).closure()
+    # A side in common is of both; a set that others cover is of none.
+    _, faces, origins = nef.mesh_with_origins("union", [block, nef.box((0, 0, 0), (1, 1, 5)), nef.box((1, 1, 1), (2, 2, 2))])
+    assert faces.shape == (len(origins), 3) and {(0,), (1,), (0, 1)} == set(origins)
+    assert set(nef.mesh_with_origins("symdiff", [block, block, pocket], threads=2).origins) == {(2,), (0, 1, 2)}
+    assert set(nef.mesh_with_origins("intersection", [block, pocket]).origins) == {(1,), (0, 1)}
+    with pytest.raises(nef.InputError, match="write union, intersection"):
+        nef.mesh_with_origins("sum", [block])
+
+
+def test_holes(tmp_path):
+    cube = nef.box((0, 0, 0), (1, 1, 1))
+    with pytest.raises(nef.InputError, match="close=10 in Python"):
+        nef.from_mesh(CORNERS, SQUARES[:5])
+    with pytest.raises(nef.InputError, match="--close=17 accepts them"):
+        nef.from_mesh(CORNERS, SQUARES[:5], close=10)
+    with pytest.warns(UserWarning, match="1 hole closed by lids of 17 %"):
+        assert nef.from_mesh(CORNERS, SQUARES[:5], close=17) == cube
+    with pytest.warns(UserWarning, match="a guess"):
+        assert nef.tiles_from_mesh(CORNERS, SQUARES[:5], close=17).volume() == 1
+    with pytest.raises(nef.InputError, match="from 0 to 100"):
+        nef.from_mesh(CORNERS, SQUARES, close=-1)
+    open_box = tmp_path / "open.off"
+    lines = [" ".join(str(x) for x in v) for v in CORNERS] + [f"4 {' '.join(str(v) for v in f)}" for f in SQUARES[:5]]
+    open_box.write_text("OFF\n8 5 0\n" + "\n".join(lines) + "\n")
+    with pytest.warns(UserWarning, match="a guess"):
+        assert nef.read(open_box, close=20) == cube
+    planner = pytest.importorskip("nef.planner")
+    scene = tmp_path / "scene.json"
+    scene.write_text('{"robot": "box(0,0,0, 1,1,1)", "obstacles": ["open.off"]}')
+    with pytest.warns(UserWarning, match="taken as a surface"):
+        planner.read(scene)
+    with pytest.warns(UserWarning, match="a guess"):
+        planner.read(scene, close=20)
+    with pytest.raises(nef.InputError, match="open there"):
+        planner.read(scene, crossings="refuse")
 
 
 def test_crossings_of_files(tmp_path):
@@ -129,6 +207,10 @@ def test_crossings_of_files(tmp_path):
     # The second one is far away and inside out: nothing is enclosed twice, and nothing in it once.
     with pytest.raises(nef.InputError):
         nef.read(two)
+    with pytest.raises(nef.InputError):
+        nef.eval(f'file("{two}")')
+    with pytest.warns(UserWarning, match="inside out"):
+        assert nef.eval(f'file("{two}")', crossings="union") == nef.box((0, 0, 0), (1, 1, 1))
     with pytest.warns(UserWarning, match="inside out"):
         assert nef.read(two, crossings="union") == nef.box((0, 0, 0), (1, 1, 1))
     with pytest.warns(UserWarning, match="inside out"):

@@ -122,6 +122,13 @@ def test_split():
     assert len(touching.split()) == 1 and len(touching.split(by="volumes")) == 2
     with pytest.raises(ValueError):
         BOX.split(by="colour")
+    two = BOX | BOX.scale(2).translate((9, 0, 0))
+    assert two.split(above=BOX.volume()) == [two.largest_piece()] and two.largest_piece() == BOX.scale(2).translate((9, 0, 0))
+    assert two.split(above="1000") == [] and len(two.split(above=0)) == 2
+    assert touching.largest_piece() == touching and touching.largest_piece(by="volumes") == BOX
+    assert nef.empty().largest_piece() == nef.empty()
+    with pytest.raises(ValueError):
+        BOX.largest_piece(by="colour")
 
 
 def test_distance():

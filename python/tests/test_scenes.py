@@ -211,3 +211,39 @@ def test_a_robot_that_turns(needs):
     none = closed.plan((2, 4, 4, 0), (7, 4, 4, 45))
     assert none.status == "infeasible" and isinstance(none.proof, planner.TurningProof)
     assert none.proof.cells > 0 and none.proof.complaint() is None
+
+
+def test_time_ends_a_plan(needs):
+    planner = needs("planner")
+    boxes = [nef.box((i, j, 3 * (i + j) % 7), (i + 1, j + 1, 8)) for i in range(9) for j in range(9)]
+    scene = planner.Scene(nef.box((0, 0, 0), ("1/3", "1/5", "1/7")), boxes)
+    assert scene.plan((-5, 0, 0), (15, 0, 0), seconds=1e-3).status == "undecided"
+    assert scene.plan((-5, 0, 0), (15, 0, 0), seconds=1000)
+
+
+def test_certified_paths_are_those_of_the_program(needs, tmp_path):
+    planner = needs("planner")
+    bar = nef.box((-2, "-1/4", "-1/2"), (2, "1/4", "1/2"))
+    wall = nef.box((-6, 4, -6), (6, 5, 6)) - nef.box((-3, 4, "-1/2"), (3, 5, "1/2"))
+    scene = planner.Scene(bar, [wall])
+    fits = [((0, 0, 0), (1, 0, 0, 1)), ((0, 1, 0), (1, 0, 0, 0)), ((0, 9, 0), (1, 0, 0, 0))]
+    found = scene.certify(fits)
+    assert found and found.status == "path" and found.touching == [1] and found.undecided == []
+    tilted = tmp_path / "tilted.path"
+    tilted.write_text("0 0 0 1 0 0 9\n0 9 0 1 0 0 9\n")
+    found = scene.certify(tilted)
+    assert not found and found.collision.motion == 0
+    # The pose collides by the definition, with sets.
+    w, x, y, z = found.collision.quaternion
+    assert (y, z) == (0, 0)
+    n = w * w + x * x
+    c, s = (w * w - x * x) / n, 2 * w * x / n
+    px, py, pz = found.collision.position
+    moved = bar.transform([[1, 0, 0, px], [0, c, -s, py], [0, s, c, pz]])
+    assert not (moved.interior() & wall.interior()).is_empty()
+    turning = planner.Scene(bar, [wall], rotation=planner.Rotation("z", 0, 90), box=((-9, -9, -9), (9, 3, 9)))
+    plan = turning.plan((0, 0, 0, 0), (0, 1, 0, 90))
+    assert plan and turning.certify(plan)
+    for bad in ([], [((0, 0, 0), (0, 0, 0, 0))], [((0, 0, 0), (1, 0, 0))]):
+        with pytest.raises((ValueError, nef.InputError)):
+            scene.certify(bad)

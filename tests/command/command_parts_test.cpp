@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // nef section, split, distance, repair; standard input and output; what nef info prints.
+#include <array>
 #include <filesystem>
 #include <sstream>
 
@@ -9,6 +10,7 @@
 #include "nef/io/polyhedron_file.h"
 #include "nef/polyhedron.h"
 #include "support/report_shape.h"
+#include "tests/support/obj_lines.h"
 #include "tests/support/paths.h"
 
 namespace nef::test {
@@ -22,6 +24,12 @@ int shell(const Workplace& here, std::string line) {
   const int status = std::system(("cd '" + here.path().string() + "' && " + line).c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
+
+// Two cubes that overlap, as quads.
+constexpr const char* kTwoCubes =
+    "0 0 0\n2 0 0\n2 2 0\n0 2 0\n0 0 2\n2 0 2\n2 2 2\n0 2 2\n1 1 1\n3 1 1\n3 3 1\n1 3 1\n1 1 3\n3 1 3\n3 3 3\n1 3 3\n"
+    "4 3 2 1 0\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n"
+    "4 11 10 9 8\n4 12 13 14 15\n4 8 9 13 12\n4 9 10 14 13\n4 10 11 15 14\n4 11 8 12 15\n";
 
 }  // namespace
 
@@ -49,6 +57,112 @@ TEST_CASE("section writes drawings and sections in space") {
   CHECK(here.nef("info u.nef --json").json()["result"]["area"] == 15.0);
   check_refused(here.nef("section a.nef --plane 0,0,0,1 -o a.svg"), "normal");
   check_refused(here.nef("section a.nef --plane 0,0,1 -o a.svg"), "four numbers");
+}
+
+TEST_CASE("repair records what became of each face, as groups and as numbers") {
+  const Workplace here;
+  here.write("two.off", std::string("OFF\n16 12 0\n") + kTwoCubes);
+  const Outcome outcome = here.nef("repair two.off -o two.nef --record record.obj --json");
+  REQUIRE(outcome.code == 0);
+  CHECK(outcome.json()["faces"]["cut"] == 6);
+  CHECK(outcome.json()["faces"]["kept"] == 6);
+  const std::string obj = here.read("record.obj");
+  CHECK(obj.find("g kept\n") != std::string::npos);
+  CHECK(obj.find("g cut\n") != std::string::npos);
+  // A corner of each of six sides is inside of the other cube.
+  CHECK(read_mesh(here.file("record.obj")).face_count() == 18);
+  CHECK(read_mesh(here.file("record.obj#cut")).face_count() == 6);
+  CHECK(read_mesh(here.file("record.obj#cut_off")).face_count() == 6);
+  CHECK(outcome.json()["cut"]["kept"].get<double>() == Approx(0.75 * outcome.json()["cut"]["area"].get<double>()));
+  REQUIRE(here.nef("repair two.off -o two.nef --record record.json").code == 0);
+  const auto numbers = nlohmann::json::parse(here.read("record.json"));
+  CHECK(numbers["faces"] == 12);
+  CHECK(numbers["fates"]["cut"].size() == 6);
+  for (const char* file : {"record.ply", "record.glb"}) {
+    CHECK(here.nef(std::string("repair two.off -o two.nef --record ") + file).code == 0);
+    CHECK(std::filesystem::exists(here.file(file)));
+  }
+  check_refused(here.nef("repair two.off -o two.nef --record record.stl"), "--record");
+}
+
+TEST_CASE("repair says what became of the named parts of a file") {
+  const Workplace here;
+  std::string text;
+  std::size_t first = 1;
+  const std::array<std::array<int, 2>, 3> cubes{{{0, 4}, {1, 2}, {3, 6}}};
+  for (std::size_t i = 0; i < cubes.size(); ++i) {
+    const Mesh mesh = read_off(cube_off(cubes[i][0], cubes[i][1]), "cube.off");
+    text += "o " + std::string(1, static_cast<char>('a' + i)) + "\n";
+    text += obj_lines(mesh, first);
+    first += mesh.vertices.size();
+  }
+  here.write("three.obj", text);
+  const Outcome outcome = here.nef("repair three.obj -o all.nef --record record.json --json");
+  REQUIRE(outcome.code == 0);
+  CHECK(outcome.json()["parts"]["a"]["cut"] == 3);
+  CHECK(outcome.json()["parts"]["a"]["kept"] == 3);
+  CHECK(outcome.json()["parts"]["b"]["inside"] == 6);
+  CHECK(outcome.json()["done"].back() == "nothing is left of the part 'b': it lies inside");
+  CHECK(nlohmann::json::parse(here.read("record.json"))["parts"]["b"] == nlohmann::json{6, 7, 8, 9, 10, 11});
+  // Without a record nothing is looked up, and one part is a mesh without parts.
+  CHECK(here.nef("repair three.obj -o all.nef --json").json()["parts"].is_null());
+  CHECK(here.nef("repair three.obj#c -o c.nef --record c.json --json").json()["parts"].is_null());
+}
+
+TEST_CASE("split writes the largest part, or those above a volume") {
+  const Workplace here;
+  REQUIRE(here.nef("eval 'box(0,0,0, 1,1,1) + box(2,0,0, 4,1,1) + box(5,0,0, 5.5,1,1)' -o three.nef").code == 0);
+  const Outcome largest = here.nef("split three.nef --largest -o one.off --json");
+  REQUIRE(largest.code == 0);
+  CHECK(largest.json()["files"] == nlohmann::json{"one.off"});
+  CHECK(equal(read_polyhedron(here.file("one.off")), make_box({2, 0, 0}, {4, 1, 1})));
+  const Outcome above = here.nef("split three.nef --above 1/2 -o some");
+  CHECK(above.code == 0);
+  CHECK(above.err.find("1 of 3 parts is left out") != std::string::npos);
+  CHECK(std::filesystem::exists(here.file("some/1.off")));
+  CHECK_FALSE(std::filesystem::exists(here.file("some/2.off")));
+  check_refused(here.nef("split three.nef --largest --above 9 -o none.off -q"), "no part");
+  // Into one file, if that is what -o names.
+  REQUIRE(here.nef("split three.nef --above 1/2 -o two.off").code == 0);
+  CHECK(equal(read_polyhedron(here.file("two.off")),
+              unite(make_box({0, 0, 0}, {1, 1, 1}), make_box({2, 0, 0}, {4, 1, 1}))));
+  check_refused(here.nef("split three.nef --above 9 -o none.off -q"), "no part");
+  CHECK_FALSE(std::filesystem::exists(here.file("none.off")));
+}
+
+TEST_CASE("parts of a file are chosen by name, and are operands of a union with origins") {
+  const Workplace here;
+  REQUIRE(here.nef("eval 'box(0,0,0, 2,2,2)' -o a.off").code == 0);
+  REQUIRE(here.nef("eval 'box(1,1,1, 3,3,3)' -o b.off").code == 0);
+  // Two groups of vertices of their own.
+  std::string text;
+  std::size_t first = 1;
+  for (const char* name : {"a", "b"}) {
+    const Mesh mesh = read_mesh(here.file(std::string(name) + ".off"));
+    text += std::string("g ") + name + "\n";
+    text += obj_lines(mesh, first);
+    first += mesh.vertices.size();
+  }
+  here.write("two.obj", text);
+  CHECK(here.nef("equal two.obj#b b.off").code == 0);
+  check_refused(here.nef("info two.obj#c"), "there is no part 'c'; its parts are 'a', 'b'");
+  const Outcome united = here.nef("union two.obj --origins -o both.obj --json");
+  REQUIRE(united.code == 0);
+  CHECK(united.json()["result"]["volume"] == "15");
+  // Each cube keeps three whole sides and three that lack a corner.
+  CHECK(united.json()["origins"].size() == 2);
+  CHECK(united.json()["origins"].contains("two.obj#a"));
+  // What was written has the same parts again, which are no solids.
+  check_refused(here.nef("info both.obj#two.obj_a"), "open there");
+  CHECK(here.nef("union two.obj -o same.nef").code == 0);
+  CHECK(here.nef("equal same.nef both.obj").code == 0);
+  // Parts that others cover have no faces.
+  REQUIRE(here.nef("eval 'box(-1,-1,-1, 9,9,9)' -o cover.off").code == 0);
+  const Outcome covered = here.nef("union two.obj cover.off --origins -o covered.obj --json");
+  CHECK(covered.json()["origins"] == nlohmann::json{{"two.obj#a", 0}, {"two.obj#b", 0}, {"cover.off", 6}});
+  // Of other operations the operands are files.
+  REQUIRE(here.nef("intersection two.obj b.off --origins -o common.obj").code == 0);
+  CHECK(here.nef("equal common.obj b.off").code == 0);
 }
 
 TEST_CASE("split writes a file for each part") {
@@ -121,6 +235,20 @@ TEST_CASE("repair says what it did, and whether that was enough") {
   CHECK(here.nef("repair open.off -o e.nef").code == 1);
   CHECK_FALSE(std::filesystem::exists(here / "e.nef"));
   check_refused(here.nef("repair open.off -o e.off --close=200"), "--close");
+}
+
+TEST_CASE("every command closes holes when asked, and notes it") {
+  const Workplace here;
+  std::string open = cube_off(0, 2);
+  open.replace(open.rfind("4 "), std::string::npos, "");
+  open.replace(open.find("8 6 "), 4, "8 5 ");
+  here.write("open.off", open);
+  check_refused(here.nef("info open.off"), "--close (close=10 in Python) closes holes with lids, a guess");
+  check_refused(here.nef("info open.off --close"), "--close=17 accepts them");
+  const Outcome closed = here.nef("union open.off open.off --close=17 -o two.nef --json");
+  REQUIRE(closed.code == 0);
+  CHECK(closed.json()["result"]["volume"] == "8");
+  CHECK(here.nef("info open.off --close=20").err.find("a guess") != std::string::npos);
 }
 
 TEST_CASE("repair resolves faces that cross by a rule, and reports what it counted") {

@@ -5,9 +5,9 @@
 
 #include <array>
 
+#include "apps/program/expression/expression.h"
+#include "apps/program/numbers.h"
 #include "nef/polyhedron.h"
-#include "nef/program/expression/expression.h"
-#include "nef/program/numbers.h"
 
 namespace nef {
 namespace {

@@ -4,9 +4,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "apps/program/expression/openscad.h"
 #include "command/process.h"
 #include "nef/polyhedron.h"
-#include "nef/program/expression/openscad.h"
 
 namespace nef::test {
 namespace {

@@ -48,7 +48,7 @@ TEST_CASE("usage errors are one line and exit code 2") {
   here.write("a.off", cube_off(0, 2));
   check_refused(here.nef(""), "subcommand");
   check_refused(here.nef("frobnicate a.off"), "frobnicate");
-  check_refused(here.nef("union a.off"), "nef union --help");
+  check_refused(here.nef("intersection a.off"), "nef intersection --help");
   check_refused(here.nef("difference a.off"), "nef difference --help");
   check_refused(here.nef("convert a.off"), "--output");
   check_refused(here.nef("info a.off --frob"), "--frob");

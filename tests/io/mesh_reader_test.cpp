@@ -136,6 +136,21 @@ TEST_CASE("STL binary: floats are the rationals that they are, whatever the head
   }
 }
 
+TEST_CASE("PLY: triangle strips, restarted and turned around") {
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+      "element tristrips 1\nproperty list int int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n";
+  // Around a tetrahedron in one strip.
+  const Mesh one = read_ply(head + "6 0 2 1 3 0 2\n", "one.ply");
+  CHECK(faces_of(one) == std::vector<Face>{{0, 2, 1}, {1, 2, 3}, {1, 3, 0}, {0, 3, 2}});
+  CHECK(volume(from_mesh(one)) == Rational(1, 6));
+  // In two strips; a corner that is named twice changes the side.
+  const Mesh two = read_ply(head + "12 0 2 1 3 -1 1 3 0 0 0 3 2\n", "two.ply");
+  CHECK(faces_of(two) == std::vector<Face>{{0, 2, 1}, {1, 2, 3}, {1, 3, 0}, {0, 3, 2}});
+  CHECK_THROWS_WITH(read_ply(head + "3 0 1 -2\n", "bad.ply"), Catch::Contains("vertex -2"));
+  CHECK_THROWS_WITH(read_ply(head + "3 0 1 9\n", "bad.ply"), Catch::Contains("vertex 9"));
+}
+
 TEST_CASE("PLY text and binary of both byte orders, with properties to skip") {
   const std::string properties =
       "comment made by hand\nelement vertex 4\nproperty float x\nproperty float y\nproperty uchar red\n"

@@ -48,7 +48,7 @@ TEST_CASE("a hole as wide as the robot leaves an edge, a cavity of its size a ve
   CHECK(nef::equal(tight(cavity), set("point(2,2,2)")));
 }
 
-TEST_CASE("narrower by any amount, the passage is gone; wider, it is solid") {
+TEST_CASE("narrower by any amount, the passage is gone, wider, it is solid") {
   const Polyhedron narrow =
       free_space("box(0,0,0,1,1,1)", {"box(-20,-20,0,-1,20,2)", "box(-1/1000000000,-20,0,20,20,2)"});
   CHECK(tight(narrow).is_empty());
@@ -98,7 +98,7 @@ TEST_CASE("the definition: a position is free iff the open robot misses the clos
   }
 }
 
-TEST_CASE("no obstacles, no box; a robot that is nothing is refused, one without end is not") {
+TEST_CASE("no obstacles, no box, a robot that is nothing is refused, one without end is not") {
   CHECK(configuration_space(set("box(0,0,0,1,1,1)"), {}).is_everything());
   CHECK(nef::equal(free_space("box(0,0,0,1,1,1)", {}), set("box(-10,-10,-10,10,10,10)")));
   CHECK_THROWS_AS(configuration_space(Polyhedron(), {}), nef::InputError);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The vertical decomposition: cells are convex, disjoint inside, few, and make exactly the set.
+// The vertical decomposition (apps/minkowski/decomposition/): convex cells, disjoint inside, few, exactly the set.
 #include <catch2/catch.hpp>
 #include <string>
 #include <vector>
@@ -12,6 +12,7 @@
 #include "nef/io/mesh/mesh_reader.h"
 #include "tests/support/literals.h"
 #include "tests/support/minkowski_shapes.h"
+#include "tests/support/next_to_zero.h"
 
 namespace {
 
@@ -73,6 +74,16 @@ TEST_CASE("cells reassemble exactly to the set, whatever its marks") {
       CAPTURE(text, axis);
       check_cells(a, decompose_along(a, axis, {}));
     }
+  }
+}
+
+TEST_CASE("cells of solids that touch, or are a hair apart or into each other", "[bounds]") {
+  nef::test::NextToZero random(1);
+  for (int i = 0; i < 60; ++i) {
+    const nef::test::TwoTetrahedra two = vertex_on_facet(random);
+    const Polyhedron a = nef::unite(nef::convex_hull(two.first), nef::convex_hull(two.second));
+    CAPTURE(i, two.shift);
+    for (const std::size_t axis : {0U, 1U, 2U}) check_cells(a, decompose_along(a, axis, {}));
   }
 }
 

@@ -8,8 +8,8 @@
 
 #include "apps/minkowski/convex/tools.h"
 #include "apps/minkowski/morphology.h"
+#include "apps/program/expression/expression.h"
 #include "nef/geometry/vectors.h"
-#include "nef/program/expression/expression.h"
 #include "tests/support/hard_points.h"
 #include "tests/support/literals.h"
 #include "tests/support/random_polyhedra.h"
@@ -239,6 +239,60 @@ TEST_CASE("penetration: after the translation the sets touch, and no shorter one
       const bool shorter_is_no_contact = p.kind == Kind::kOverlapping ? overlap(d) : !meet(d);
       RC_ASSERT(shorter_is_no_contact);
     }
+  }));
+}
+
+// The nearest way out leads into a passage that is exactly as wide as what moves: a shaft, from which it can go on
+// along a line; a hole, in which it can not move at all; two octants that meet in a point, around which the other set
+// has the rest of space, so that no facet of the convolution tells of the contact.
+TEST_CASE("penetration: into a shaft, a hole and a saddle of exactly the right size") {
+  const auto way_out = [](const std::string& a, const std::string& b, const Rational3& by) {
+    nef::minkowski::MinkowskiReport report;
+    const nef::minkowski::Penetration p = nef::minkowski::penetration(set(a), moved(set(b), by), {}, &report);
+    CHECK(p.kind == nef::minkowski::Penetration::Kind::kOverlapping);
+    CHECK(report.choices.back().why.find("facets near the origin") == 0);
+    return p.translation;
+  };
+  const std::string cube = "box(1,1,1, 2,2,2)";
+  CHECK(way_out("box(0,0,0, 3,3,9) - box(1,1,0, 2,2,9)", cube, {Rational(1, 5), Rational(-1, 7), 3}) ==
+        Rational3{Rational(-1, 5), Rational(1, 7), 0});
+  CHECK(way_out("box(0,0,0, 3,3,3) - box(1,1,1, 2,2,2)", cube, {Rational(1, 5), Rational(-1, 7), Rational(1, 9)}) ==
+        Rational3{Rational(-1, 5), Rational(1, 7), Rational(-1, 9)});
+  // A point missing inside changes nothing, nor does a facet.
+  CHECK(way_out("box(0,0,0, 3,3,3) - box(1,1,1, 2,2,2) - polygon(0,0,1/2, 3,0,1/2, 3,3,1/2, 0,3,1/2) - point(2,2,5/2)",
+                cube, {Rational(1, 5), Rational(-1, 7), Rational(1, 9)}) ==
+        Rational3{Rational(-1, 5), Rational(1, 7), Rational(-1, 9)});
+  CHECK(way_out("box(0,0,0, 2,2,2) + box(-2,-2,-2, 0,0,0)",
+                "regularize(box(-1,-1,-1, 1,1,1) - box(0,0,0, 1,1,1) - box(-1,-1,-1, 0,0,0))",
+                {Rational(1, 10), Rational(1, 20), Rational(-1, 10)}) ==
+        Rational3{Rational(-1, 10), Rational(-1, 20), Rational(1, 10)});
+}
+
+void check_ways_out(const Polyhedron& a, const Polyhedron& b) {
+  nef::minkowski::MinkowskiOptions cells;
+  cells.strategy = nef::minkowski::UnionStrategy::kQueue;
+  nef::minkowski::MinkowskiOptions threads;
+  threads.monitor = nef::Monitor().on_threads(3);
+  const nef::minkowski::Penetration near = nef::minkowski::penetration(a, b);
+  RC_ASSERT(near.squared_length == nef::minkowski::penetration(a, b, cells).squared_length);
+  RC_ASSERT(near.translation == nef::minkowski::penetration(a, b, threads).translation);
+}
+
+TEST_CASE("penetration: facets near the origin tell what the whole sum of cells tells") {
+  CHECK(rc::check("on a grid", [] {
+    const Polyhedron a = regularize((*recipes(true, 4)).make());
+    const Polyhedron b = regularize((*recipes(true, 3, 2)).make());
+    if (!a.is_empty() && !b.is_empty()) check_ways_out(a, b);
+  }));
+  // Sheared by next to nothing, so that doubles can not tell.
+  nef::AffineMap turn = nef::AffineMap::identity();
+  turn.linear = {{{2, -1, 2}, {2, 2, -1}, {-1, 2, 2}}};
+  nef::AffineMap nearly = turn;
+  nearly.linear[0][1] += Rational(1, 3) / Rational(nef::Integer(1) << 60U);
+  CHECK(rc::check("turned", [&] {
+    const Polyhedron a = regularize((*recipes(true, 4)).make());
+    const Polyhedron b = regularize((*recipes(true, 3, 2)).make());
+    if (!a.is_empty() && !b.is_empty()) check_ways_out(transform(a, turn), transform(b, nearly));
   }));
 }
 

@@ -105,7 +105,7 @@ TEST_CASE("a fine ball, whose sums are few and large, united in every order") {
   for (const auto& [name, order] : nef::test::kUnionOrders) CHECK(nef::equal(united(sums, order), sum));
 }
 
-TEST_CASE("two boxes; a prism and its mirror image") {
+TEST_CASE("two boxes, a prism and its mirror image") {
   CHECK(nef::equal(minkowski_sum(set("box(1,2,3,4,5,6)"), set("box(-1,0,0,1,2,5)")), set("box(0,2,3,5,7,11)")));
   // A triangle plus its mirror image is a hexagon of six times the area.
   const Polyhedron prism = set("hull(0,0,0, 3,0,0, 0,3,0, 0,0,1, 3,0,1, 0,3,1)");

@@ -36,7 +36,7 @@ using nef::test::Recipe;
 using nef::test::recipes;
 using nef::test::valid;
 
-TEST_CASE("random: x is in A + B iff A meets x - B; sums commute") {
+TEST_CASE("random: x is in A + B iff A meets x - B, sums commute") {
   check("membership", 300, [] {
     const Recipe ra = *recipes(true, 4);
     const Recipe rb = *recipes(true, 2, 2);
@@ -58,7 +58,7 @@ TEST_CASE("random: both strategies, any number of threads and any order of union
     const Polyhedron b = (*recipes(true, 3, 2)).make();
     const Polyhedron first = minkowski_sum(a, b);
     MinkowskiOptions options;
-    options.threads = 3;
+    options.monitor = nef::Monitor().on_threads(3);
     RC_ASSERT(nef::equal(first, minkowski_sum(a, b, options)));
     for (const UnionStrategy strategy : {UnionStrategy::kQueue, UnionStrategy::kConvolution}) {
       options.strategy = strategy;

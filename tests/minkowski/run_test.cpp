@@ -16,6 +16,8 @@
 
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"
+#include "nef/tiles/storage/tile_folder.h"
+#include "nef/tiles/tiled_polyhedron.h"
 #include "tests/support/literals.h"
 #include "tests/support/paths.h"
 #include "tests/support/report_shape.h"
@@ -78,6 +80,45 @@ TEST_CASE("command: a sum, and what its report says") {
   CHECK(json::parse(exact.out)["result"]["volume"] == "24");
 }
 
+TEST_CASE("command: folders of tiles are operands and results, as of nef") {
+  const Place place;
+  place.write("a.nef", kL);
+  place.write("b.nef", "box(0,0,0,1,1,1)");
+  nef::write_tiles(place / "a.tiles", nef::TiledPolyhedron(set(kL), {.limit = 32}));
+  REQUIRE(place.run("a.nef b.nef -o sum.nef").code == 0);
+  REQUIRE(place.run("a.tiles b.nef -o of_tiles.nef").code == 0);
+  CHECK(nef::equal(nef::read_polyhedron(place / "of_tiles.nef"), nef::read_polyhedron(place / "sum.nef")));
+  REQUIRE(place.run("--configuration-space --robot b.nef --obstacles a.tiles b.nef -o free.nef").code == 0);
+  REQUIRE(place.run("--configuration-space --robot b.nef --obstacles a.nef b.nef -o same.nef").code == 0);
+  CHECK(nef::equal(nef::read_polyhedron(place / "free.nef"), nef::read_polyhedron(place / "same.nef")));
+  REQUIRE(place.run("a.nef b.nef -o sum.tiles").code == 0);
+  CHECK(nef::equal(nef::read_file_or_tiles(place / "sum.tiles", {}), set("box(0,0,0,4,2,2) + box(0,0,0,2,4,2)")));
+  const Outcome refused = place.run("a.nef b.nef -o sum.tiles --recenter");
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.err, Catch::Contains("--recenter is for files of meshes"));
+}
+
+TEST_CASE("command: many notes are a few lines, and all of them in the report") {
+  const Place place;
+  // Eighty square pyramids apart from each other, with a corner of each base lifted, so that the base is bent.
+  std::ostringstream vertices;
+  std::ostringstream faces;
+  for (int i = 0; i < 80; ++i) {
+    const int x = 3 * i;
+    vertices << x << " 0 0\n" << x + 1 << " 0 0\n" << x + 1 << " 1 1/8\n" << x << " 1 0\n" << x << " 0 2\n";
+    const int v = 5 * i;
+    faces << "4 " << v << ' ' << v + 3 << ' ' << v + 2 << ' ' << v + 1 << '\n';
+    for (int k = 0; k < 4; ++k) faces << "3 " << v + k << ' ' << v + (k + 1) % 4 << ' ' << v + 4 << '\n';
+  }
+  std::ofstream(place / "bent.off") << "OFF\n400 400 0\n" << vertices.str() << faces.str();
+  const Outcome outcome = place.run("--hull bent.off -o hull.nef --report report.json");
+  CHECK(outcome.code == 0);
+  CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 6);
+  CHECK_THAT(outcome.err, Catch::Contains("note: and 75 more of them"));
+  CHECK(json::parse(place.read("report.json"))["messages"].size() == 80);
+  CHECK(place.run("--hull bent.off -o hull.nef -q").err.empty());
+}
+
 TEST_CASE("command: the report says which strategy was taken, and why") {
   const Place place;
   place.write("a.nef", kL);
@@ -95,7 +136,8 @@ TEST_CASE("command: the report says which strategy was taken, and why") {
   };
   CHECK(strategies("a.nef a.nef")[0]["chosen"] == "convolution");
   CHECK(strategies("cube.nef cube.nef")[0]["why"] == "both operands are convex");
-  CHECK(strategies("a.nef thin.nef")[0]["why"].get<std::string>().find("B has parts that are not solid") == 0);
+  CHECK(strategies("a.nef thin.nef")[0]["why"] == "both operands are closed, and one is solid");
+  CHECK(strategies("thin.nef thin.nef")[0]["why"].get<std::string>().find("A has parts that are not solid") == 0);
   CHECK(strategies("hole.nef cube.nef")[0]["why"].get<std::string>().find("bounded complement") != std::string::npos);
   CHECK(strategies("half.nef cube.nef")[0]["chosen"] == "planes");
   CHECK(strategies("a.nef cube.nef --open").size() == 2);
@@ -167,6 +209,17 @@ TEST_CASE("command: cells of a decomposition to a coloured file and into a direc
     }
   }
   CHECK(place.run("--decompose a.nef -o moved --format nef --recenter").code == 2);
+  // A plate that is thinner than the distance of doubles there.
+  place.write("thin.nef", "box(0,0,0,1,1,1) + box(1000000,0,0,1000000000000000001/1000000000000,1,1)");
+  const Outcome thin = place.run("--decompose thin.nef -o thin.off");
+  CHECK(thin.code == 2);
+  CHECK(thin.err.find("1 cell is no solid any more with rounded coordinates (cell 2: ") != std::string::npos);
+  CHECK(thin.err.find("--exact") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(place / "thin.off"));
+  CHECK(place.run("--decompose thin.nef -o thin.off --exact").code == 0);
+  const Outcome lenient = place.run("--decompose thin.nef -o thin.off --lenient -q");
+  CHECK(lenient.code == 0);
+  CHECK(lenient.err.find("warning: thin.off: 1 cell is no solid") != std::string::npos);
   const Outcome ply = place.run("--decompose a.nef -o cells.ply");
   CHECK(ply.code == 0);
   CHECK(ply.err.find("1 of the cells are segments or points") != std::string::npos);
@@ -199,12 +252,29 @@ TEST_CASE("command: free space with a tight passage") {
   place.write("left.nef", "box(-20,-20,-20,-1,20,20)");
   place.write("right.nef", "box(0,-20,-20,20,20,20)");
   const Outcome outcome = place.run(
-      "--configuration-space --robot robot.nef --obstacles left.nef right.nef --box -5,-5,-5 5,5,5 -o free.nef --json "
+      "--configuration-space --robot robot.nef --obstacles left.nef right.nef --box -5,-5,-5,5,5,5 -o free.nef --json "
       "--exact-volume");
   CAPTURE(outcome.err);
   REQUIRE(outcome.code == 0);
   CHECK(json::parse(outcome.out)["result"]["volume"] == "0");
   CHECK(nef::equal(nef::read_polyhedron(place / "free.nef"), set("polygon(-1,-5,-5, -1,5,-5, -1,5,5, -1,-5,5)")));
+}
+
+TEST_CASE("command: what a milling tool leaves, and its regions as groups of a mesh") {
+  const Place place;
+  place.write("part.nef", "box(0,0,0,9,3,3) - interior(box(4,-1,1,9/2,9,9)) - interior(box(6,1,1,8,2,2))");
+  const Outcome outcome =
+      place.run("part.nef --box-tool 1,1,1 --millable --axes 3 -o shape.nef --labels left.obj --json --exact-volume");
+  CAPTURE(outcome.err);
+  REQUIRE(outcome.code == 0);
+  const json report = json::parse(outcome.out);
+  REQUIRE(report["unreached"].size() == 2);
+  CHECK(report["unreached"][0]["volume"] == "3");
+  CHECK(report["unreached"][1]["volume"] == "2");
+  CHECK(report["result"]["volume"] == "81");
+  CHECK(report["faces"]["region1"] == 6);
+  CHECK(report["faces"]["region2"] == 6);
+  CHECK(place.read("left.obj").find("g region2\n") != std::string::npos);
 }
 
 TEST_CASE("command: what a tool can touch, as labels of the part's faces") {
@@ -251,6 +321,22 @@ TEST_CASE("command: what a tool can touch, as labels of the part's faces") {
   CHECK(refused.err.find("labels.nef") != std::string::npos);
 }
 
+TEST_CASE("command: operands with holes are closed when asked, crossing ones are united") {
+  const Place place;
+  place.write("box.nef", "box(0,0,0,2,2,2)");
+  std::ofstream(place / "open.off") << "OFF\n8 5 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n0 0 2\n2 0 2\n2 2 2\n0 2 2\n"
+                                       "4 3 2 1 0\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n";
+  for (const std::string task : {" --offset 1,2", " --ball 1,2", " --box-tool 1,1,1"}) {
+    CAPTURE(task);
+    REQUIRE(place.run("box.nef" + task + " -o wanted.nef").code == 0);
+    const Outcome closed = place.run("open.off" + task + " --close-holes=20 -o closed.nef");
+    REQUIRE(closed.code == 0);
+    CHECK(closed.err.find("1 hole closed by lids of 17 % of the area") != std::string::npos);
+    CHECK(nef::equal(nef::read_polyhedron(place / "closed.nef"), nef::read_polyhedron(place / "wanted.nef")));
+    CHECK(place.run("open.off" + task + " -o open.nef").code == 2);
+  }
+}
+
 TEST_CASE("command: bad usage and bad input are one line on stderr, code 2, and no file") {
   const Place place;
   place.write("a.nef", kL);
@@ -285,6 +371,9 @@ TEST_CASE("command: bad usage and bad input are one line on stderr, code 2, and 
       {"a.nef a.nef --inner -o out.nef", "--inner"},
       {"a.nef a.nef --from 1,1,1 -o out.nef", "--reach"},
       {"a.nef a.nef --labels out.obj -o out.nef", "--reach"},
+      {"a.nef a.nef --axes 3 -o out.nef", "--millable"},
+      {"a.nef a.nef --millable --axes 5 -o out.nef", "--axes"},
+      {"a.nef a.nef --millable --touched out.obj -o out.nef", "--reach"},
       {"a.nef a.nef --reach --from 1,1 -o out.nef", "--from"},
       {"a.nef a.nef --reach --from 1/4,1/4,1/4 -o out.nef", "overlaps"},
       {"a.nef a.nef -o out.xyz", "out.xyz"}};
@@ -307,7 +396,7 @@ TEST_CASE("command: an unbounded operand") {
   CHECK(nef::equal(nef::read_polyhedron(place / "out.nef"), set("halfspace(1,0,0,-1) * halfspace(0,1,0,-1)")));
 }
 
-TEST_CASE("command: pictures of operands, results and cells; the result does not depend on threads") {
+TEST_CASE("command: pictures of operands, results and cells, the result does not depend on threads") {
   const Place place;
   place.write("a.nef", kL);
   CHECK(place.run("a.nef a.nef -o one.nef --preview pictures --threads 1").code == 0);
@@ -340,7 +429,7 @@ TEST_CASE("command: an interrupt stops at once and leaves a whole file or none")
     return std::system(command.c_str());
   };
   const std::string mushroom = source_folder() + "/data/minkowski/mushroom.off";
-  CHECK(interrupted("0.2", mushroom + " " + mushroom + " -o out.nef") != 0);
+  CHECK(interrupted("0.2", mushroom + " " + mushroom + " --union queue -o out.nef") != 0);
   CHECK(place.file_count() == before);
   // At any moment of short work.
   for (int i = 1; i <= 15; ++i) {

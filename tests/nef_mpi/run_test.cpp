@@ -177,7 +177,7 @@ TEST_CASE("a rank that is lost ends the run, and the next one goes on from what 
   CHECK(here.read("u.nef") == here.read("whole.nef"));
 }
 
-TEST_CASE("a task that fails is tried again and named; the others are kept") {
+TEST_CASE("a task that fails is tried again and named, the others are kept") {
   const Place here;
   std::string pieces = tetrahedra(600, 3);
   static_cast<void>(here.write("later.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n"));  // cut off

@@ -35,7 +35,7 @@ TEST_CASE("the tight hole of S1 is listed with its exact geometry and what it jo
   std::sort(ends.begin(), ends.end());
   CHECK(ends == std::vector<Rational3>{{3, 1, 1}, {5, 1, 1}});
   CHECK(passage.mouths.size() == 2);
-  CHECK(passage.rooms.size() == 2);
+  CHECK(passage.volumes.size() == 2);
   CHECK(problem.solve().path->passages == std::vector<std::uint32_t>{0});
   // The free space is known in full: two boxes, the segment, and the outside.
   const Polyhedron rooms = unite(make_box({0, 0, 0}, {3, 2, 2}), make_box({5, 0, 0}, {8, 2, 2}));
@@ -100,7 +100,7 @@ TEST_CASE("S10 with a cap: the start component is a segment, and moves within it
   CHECK(within.thinness->piece == 1);
 }
 
-TEST_CASE("S14: the shortest path is the thin one; T and J tell the best, the path its own") {
+TEST_CASE("S14: the shortest path is the thin one, T and J tell the best, the path its own") {
   const Answer answer = Problem(load("s14_two_ways")).solve();
   REQUIRE(answer.path.has_value());
   CHECK(answer.path->thinness.piece == 1);

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The command `planner` as users call it, the readers of scenes, and the example program.
+// The command `planner` as users call it, the readers of scenes, and the example program (apps/planner/examples/).
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
+#include "apps/program/exact_json.h"
 #include "nef/construct/construct.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/polyhedron.h"
-#include "nef/program/exact_json.h"
+#include "nef/tiles/storage/tile_folder.h"
+#include "nef/tiles/tiled_polyhedron.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
 #include "tests/support/paths.h"
@@ -48,6 +50,22 @@ TEST_CASE("exit codes and the JSON report") {
   CHECK(planner(folder, scene("s1_tight_hole") + " --contact forbid").code == 1);
 }
 
+TEST_CASE("when --time is up, a question about translations is undecided") {
+  const Folder folder;
+  // A shape of many facets among others: sums of some seconds.
+  const std::string slow = folder.write("slow.json", R"J({"robot": "ball(1/3, 9)", "obstacles": ["ball(2, 20)"],
+      "start": [5,0,0], "goal": [-5,0,0]})J");
+  const Run late = planner(folder, slow + " --time 0.001 --json");
+  CHECK(late.code == 5);
+  const auto report = nlohmann::json::parse(late.out);
+  CHECK(report["status"] == "undecided");
+  CHECK(report["motions"] == "translation");
+  nef::test::check_report_shape(report, "plan");
+  CHECK(planner(folder, slow + " --time 0.001").out.find("undecided: the --time was up") == 0);
+  CHECK(planner(folder, scene("s1_tight_hole") + " --time 1000").code == 0);
+  CHECK(planner(folder, scene("s1_narrower") + " --time 1000").code == 1);
+}
+
 TEST_CASE("an end that is not free is told before any free space is made") {
   const Folder folder;
   const std::string bad = scene("s1_tight_hole") + " --start 3.5,1,0.5";
@@ -69,6 +87,23 @@ TEST_CASE("an end that is not free is told before any free space is made") {
   CHECK(nlohmann::json::parse(turned.out)["cells"] == 0);
 }
 
+TEST_CASE("a folder of tiles is a shape like the file of its set") {
+  const Folder folder;
+  const Polyhedron wall = subtract(make_box({4, 0, 0}, {5, 3, 3}), make_box({4, 1, 1}, {5, 2, 2}));
+  write_polyhedron(folder.file("wall.nef"), wall);
+  write_tiles(folder.file("wall.tiles"), TiledPolyhedron(wall, {.limit = 32}));
+  const auto asked = [&](const std::string& obstacle) {
+    const std::string scene =
+        folder.write("scene.json", R"J({"robot": "box(0,0,0, 1,1,1)", "obstacles": [")J" + obstacle +
+                                       R"J("], "box": [[0,0,0], [9,3,3]], "contact": "allow",
+      "start": [1, "1/2", "1/2"], "goal": [7, 1, 1]})J");
+    const Run run = planner(folder, scene + " --json");
+    CHECK(run.code == 0);
+    return nlohmann::json::parse(run.out)["path"];
+  };
+  CHECK(asked("wall.tiles") == asked("wall.nef"));
+}
+
 TEST_CASE("notes about the input are printed on stderr, whatever is asked") {
   const Folder folder;
   // A cube whose faces all occur twice.
@@ -88,13 +123,14 @@ TEST_CASE("notes about the input are printed on stderr, whatever is asked") {
     INFO(arguments);
     const Run run = planner(folder, arguments);
     CHECK(run.code < 2);
-    CHECK_THAT(run.err, Catch::StartsWith("planner: note: ") && Catch::Contains("occur twice"));
+    CHECK_THAT(run.err, Catch::StartsWith("planner: note: ") && Catch::Contains("enclosed at least once"));
     CHECK(std::count(run.err.begin(), run.err.end(), '\n') == 1);
     CHECK(run.out.find("note:") == std::string::npos);
     CHECK(planner(folder, arguments + " --quiet").err.empty());
     const Run report = planner(folder, arguments + " --json");
     CHECK(report.err == run.err);
-    CHECK_THAT(nlohmann::json::parse(report.out)["messages"][0].get<std::string>(), Catch::Contains("occur twice"));
+    CHECK_THAT(nlohmann::json::parse(report.out)["messages"][0].get<std::string>(),
+               Catch::Contains("enclosed at least once"));
   }
 }
 
@@ -157,7 +193,7 @@ nlohmann::json gltf_of(const std::string& file) {
   return nlohmann::json::parse(bytes.substr(20, at(12) | at(13) << 8 | at(14) << 16));
 }
 
-TEST_CASE("a glTF file with a robot that moves; without a path it stands still") {
+TEST_CASE("a glTF file with a robot that moves, without a path it stands still") {
   const Folder folder;
   REQUIRE(planner(folder, scene("s1_tight_hole") + " -o " + folder.file("s1.glb")).code == 0);
   const auto moving = gltf_of(folder.file("s1.glb"));

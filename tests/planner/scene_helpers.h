@@ -3,7 +3,9 @@
 // What several tests of the planner need.
 #pragma once
 
+#include <random>
 #include <string>
+#include <vector>
 
 #include "apps/planner/path/question.h"
 #include "tests/support/oblique_rotation.h"
@@ -20,6 +22,13 @@ inline Rational ratio(long a, long b) {
   return result;
 }
 
+inline Rational3 scaled_by(const Rational& factor, const Rational3& v) {
+  return {factor * v[0], factor * v[1], factor * v[2]};
+}
+
+/// Axes whose length is one, rational, and irrational.
+const std::vector<Rational3>& turning_axes();
+
 /// A scene of data/planner, without its extension.
 inline Scene load(const std::string& name) { return read_scene(source_folder() + "/data/planner/" + name + ".json"); }
 
@@ -35,6 +44,14 @@ inline std::string corner(const std::string& length) {
     "obstacles": ["box(-20,-20,-1, 20,20,2) - interior(box(-20,-2,-2, 0,0,3)) - interior(box(-2,-2,-2, 0,20,3))"],
     "box": [[-15,-15,0],[15,15,0]], "start": [-12,-1,0, 0], "goal": [-1,12,0, 90]})J";
 }
+
+/// A multiple of 1 / `denominator` from `low` to `high`.
+Rational small_number(std::mt19937& random, int low, int high, int denominator);
+
+/// A set of boxes, plates and points at small coordinates, so that nearly everything in it is degenerate, and points
+/// from its surroundings.
+Polyhedron degenerate_set(unsigned seed);
+Rational3 point_near_degenerate_set(std::mt19937& random, int denominator);
 
 /// The scene with obstacles, start and goal mapped by `map` and the robot by its linear part. Boxes are axis-parallel,
 /// so the scene must have none.

@@ -14,8 +14,8 @@
 #include "apps/planner/ompl/tight_planner.h"
 #include "apps/planner/path/question.h"
 #include "apps/planner/turning/turning_search.h"
+#include "apps/program/exact_json.h"
 #include "nef/base/error.h"
-#include "nef/program/exact_json.h"
 #include "tests/planner/command_helpers.h"
 
 namespace nef::planner::test {

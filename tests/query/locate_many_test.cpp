@@ -21,7 +21,7 @@ TEST_CASE("many points are located as one by one") {
       if (i % 50 == 49) p[static_cast<std::size_t>(i / 50) % 3] = 1e300;
       points.push_back(p);
     }
-    const std::vector<LabelId> marks = locate_many(whole, points, 2);
+    const std::vector<LabelId> marks = locate_many(whole, points, Monitor().on_threads(2));
     RC_ASSERT(marks.size() == points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
       RC_ASSERT((marks[i] != 0) ==

@@ -9,10 +9,10 @@
 #include <cmath>
 #include <limits>
 
+#include "nef/complex/predicates_of_sets.h"
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
 #include "nef/query/measure.h"
-#include "nef/query/predicates_of_sets.h"
 
 namespace nef {
 namespace {

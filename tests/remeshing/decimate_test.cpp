@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nef/remeshing/decimate.h"
+#include "apps/remeshing/decimate.h"
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nef/remeshing/hausdorff.h"
+#include "apps/remeshing/hausdorff.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

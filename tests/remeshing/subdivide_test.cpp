@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nef/remeshing/subdivide.h"
+#include "apps/remeshing/subdivide.h"
 
 #include <array>
 #include <catch2/catch.hpp>

@@ -16,11 +16,13 @@
 namespace nef::test {
 namespace {
 
-void same_in_pieces(const Mesh& mesh, const Tiling& tiling, std::size_t piece, const std::string& what) {
+void same_in_pieces(const Mesh& mesh, const Tiling& tiling, unsigned threads, std::size_t piece,
+                    const std::string& what) {
   Messages of_tiles;
   Messages of_whole;
   const Polyhedron whole = from_mesh(mesh, {}, &of_whole);
-  const TiledPolyhedron tiles = tiles_from_mesh(mesh, {}, tiling, &of_tiles, piece);
+  const TiledPolyhedron tiles =
+      tiles_from_mesh(mesh, {.monitor = Monitor().on_threads(threads)}, tiling, &of_tiles, piece);
   leaves_are_valid(tiles.tree(), what);
   glued_is(tiles, whole, what);
   if (of_tiles != of_whole) RC_FAIL(what + ": other messages");
@@ -43,9 +45,10 @@ TEST_CASE("solids on a grid come in piece by piece") {
     const Polyhedron solid = regularize((*recipes(true, 5).as("solid")).make());
     RC_PRE(!solid.is_empty());
     const Mesh mesh = to_mesh(solid).mesh;
-    const Tiling tiling{*rc::gen::inRange<std::size_t>(8, 60), *rc::gen::element(1U, 2U)};
-    same_in_pieces(mesh, tiling, *rc::gen::inRange<std::size_t>(1, 12), "as it is");
-    same_in_pieces(turned_over(mesh), tiling, 6, "turned over");
+    const Tiling tiling{*rc::gen::inRange<std::size_t>(8, 60)};
+    const unsigned threads = *rc::gen::element(1U, 2U);
+    same_in_pieces(mesh, tiling, threads, *rc::gen::inRange<std::size_t>(1, 12), "as it is");
+    same_in_pieces(turned_over(mesh), tiling, threads, 6, "turned over");
   }));
 }
 
@@ -53,11 +56,11 @@ TEST_CASE("real meshes and round shapes come in piece by piece", "[threads]") {
   for (const std::string name : {"star.off", "eight.off", "hand.off", "rotor.off", "hole.off", "sphere.ply"}) {
     INFO(name);
     const Mesh mesh = read_mesh(source_folder() + "/data/meshes/" + name);
-    CHECK_NOTHROW(same_in_pieces(mesh, {300, 2}, mesh.face_count() / 20 + 1, name));
+    CHECK_NOTHROW(same_in_pieces(mesh, {300}, 2, mesh.face_count() / 20 + 1, name));
   }
   // A cavity, and an island in it.
   const Polyhedron onion = unite(subtract(make_sphere(10, 40), interior(make_sphere(8, 40))), make_sphere(5, 20));
-  CHECK_NOTHROW(same_in_pieces(to_mesh(onion).mesh, {200, 2}, 150, "an onion"));
+  CHECK_NOTHROW(same_in_pieces(to_mesh(onion).mesh, {200}, 2, 150, "an onion"));
 }
 
 TEST_CASE("a mesh that bounds no solid is refused as it is in whole") {
@@ -72,7 +75,7 @@ TEST_CASE("a mesh that bounds no solid is refused as it is in whole") {
     whole = error.what();
   }
   CHECK(whole != "");
-  CHECK_THROWS_WITH(tiles_from_mesh(result, {}, {100, 1}, nullptr, 50), whole);
+  CHECK_THROWS_WITH(tiles_from_mesh(result, {}, {100}, nullptr, 50), whole);
   // One of two spheres has the inside on the other side.
   Mesh two = to_mesh(make_sphere(10, 20)).mesh;
   const Mesh inner = to_mesh(make_sphere(5, 20)).mesh;
@@ -83,7 +86,7 @@ TEST_CASE("a mesh that bounds no solid is refused as it is in whole") {
     for (std::uint32_t& v : face) v += shift;
     two.push_face(face);
   }
-  CHECK_THROWS_WITH(tiles_from_mesh(two, {}, {100, 1}, nullptr, 40), Catch::Contains("contradict"));
+  CHECK_THROWS_WITH(tiles_from_mesh(two, {}, {100}, nullptr, 40), Catch::Contains("contradict"));
 }
 
 TEST_CASE("unions of many sets, region by region", "[threads]") {
@@ -93,13 +96,14 @@ TEST_CASE("unions of many sets, region by region", "[threads]") {
           *rc::gen::resize(12, rc::gen::container<std::vector<Recipe>>(recipes(bounded, 2))).as("pieces");
       std::vector<Polyhedron> sets;
       for (const Recipe& recipe : recipes_of_pieces) sets.push_back(recipe.make());
-      const Tiling tiling{*rc::gen::inRange<std::size_t>(8, 60), *rc::gen::element(1U, 2U)};
+      const Tiling tiling{*rc::gen::inRange<std::size_t>(8, 60)};
+      const Monitor monitor = Monitor().on_threads(*rc::gen::element(1U, 2U));
       const PieceSource source{.count = static_cast<std::uint32_t>(sets.size()),
                                .set = [&sets](std::uint32_t i, const Monitor&) { return sets[i]; }};
-      const TiledPolyhedron united = union_in_tiles(source, tiling, *rc::gen::inRange<std::size_t>(1, 5));
+      const TiledPolyhedron united = union_in_tiles(source, tiling, *rc::gen::inRange<std::size_t>(1, 5), monitor);
       leaves_are_valid(united.tree(), "union");
       glued_is(united, unite_all(sets), "union");
-      glued_is(TiledPolyhedron(sets, tiling), unite_all(sets), "all at once");
+      glued_is(TiledPolyhedron(sets, tiling, monitor), unite_all(sets), "all at once");
     }));
   }
 }
@@ -131,8 +135,8 @@ TEST_CASE("many vertices are glued on several threads", "[threads]") {
       }
     }
   }
-  const TiledPolyhedron on_one(pieces, {.limit = 100, .threads = 1});
-  const TiledPolyhedron on_three(pieces, {.limit = 100, .threads = 3});
+  const TiledPolyhedron on_one(pieces, {.limit = 100});
+  const TiledPolyhedron on_three(pieces, {.limit = 100}, Monitor().on_threads(3));
   const Polyhedron one = on_one.polyhedron();
   REQUIRE(one.complex().vertex_count() > 9000);
   CHECK(native_binary(one) == native_binary(on_three.polyhedron()));

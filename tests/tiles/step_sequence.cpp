@@ -13,7 +13,7 @@ namespace nef::test {
 
 TEST_CASE("many small steps are done in tiles, few are not") {
   const Polyhedron sphere = make_sphere(10, 60);
-  const Tiling tiling{200, 1};
+  const Tiling tiling{200};
   constexpr int kMany = 120;
   StepSequence few(sphere, 6, TileUse::kWherePays, tiling);
   StepSequence many(sphere, kMany, TileUse::kWherePays, tiling);
@@ -39,7 +39,7 @@ TEST_CASE("a chain in tiles is the plain one at every hundredth of its way") {
   constexpr int kSteps = 100;
   for (const std::size_t limit : {40, 128}) {
     StepSequence plain(sphere, kSteps, TileUse::kNever);
-    StepSequence tiled(sphere, kSteps, TileUse::kAlways, {limit, 1});
+    StepSequence tiled(sphere, kSteps, TileUse::kAlways, {limit});
     for (int i = 0; i < kSteps; ++i) {
       const auto op = i % 5 == 4 ? BooleanOperator::kSymmetricDifference : BooleanOperator::kDifference;
       plain.apply(op, notch(i));
@@ -53,7 +53,7 @@ TEST_CASE("a chain in tiles is the plain one at every hundredth of its way") {
 
 TEST_CASE("large operands are met without tiles") {
   const Polyhedron sphere = make_sphere(10, 60);
-  StepSequence sequence(sphere, 30, TileUse::kWherePays, Tiling{200, 1});
+  StepSequence sequence(sphere, 30, TileUse::kWherePays, Tiling{200});
   for (int i = 1; i <= 30; ++i) {
     sequence.apply(BooleanOperator::kIntersection, make_sphere(10 - Rational(i, 50), 60));
     CHECK(sequence.tile_count() == 0);

@@ -34,12 +34,13 @@ TEST_CASE("sets in a store of next to no memory are what they are in memory") {
       const Polyhedron a = (*recipes(bounded, 4).as("A")).make();
       const Polyhedron b = (*recipes(bounded, 4).as("B")).make();
       const TemporaryFolder folder;
-      const Tiling tiling{*rc::gen::inRange<std::size_t>(8, 40), *rc::gen::element(1U, 2U), store_in(folder, 1)};
+      const Tiling tiling{*rc::gen::inRange<std::size_t>(8, 40), store_in(folder, 1)};
+      const Monitor monitor = Monitor().on_threads(*rc::gen::element(1U, 2U));
       const TiledPolyhedron x(a, tiling);
       leaves_are_valid(x.tree(), "A");
       glued_is(x, a, "A");
-      glued_is(unite(x, b), unite(a, b), "A + B");
-      glued_is(subtract(subtract(x, b), TiledPolyhedron(b, tiling)), subtract(a, b), "A - B - B");
+      glued_is(unite(x, b, monitor), unite(a, b), "A + B");
+      glued_is(subtract(subtract(x, b), TiledPolyhedron(b, tiling, monitor), monitor), subtract(a, b), "A - B - B");
       glued_is(complement(intersect(complement(x), b)), unite(a, complement(b)), "!(!A * B)");
       RC_ASSERT(volume(x) == volume(a));
       // Written to a folder, and read in both ways.
@@ -58,7 +59,7 @@ TEST_CASE("a store holds what fits, and leaves nothing behind") {
   const Polyhedron sphere = make_sphere(10, 60);
   {
     const std::shared_ptr<TileStore> store = store_in(folder, 400'000);
-    TiledPolyhedron set(sphere, {200, 1, store});
+    TiledPolyhedron set(sphere, {200, store});
     std::vector<TiledPolyhedron> versions;
     for (int i = 0; i < 20; ++i) {
       versions.push_back(set);
@@ -73,7 +74,7 @@ TEST_CASE("a store holds what fits, and leaves nothing behind") {
   CHECK(folder.file_count() == 0);
   {
     const std::shared_ptr<TileStore> store = store_in(folder, 1'000'000'000);
-    const TiledPolyhedron set(sphere, {200, 1, store});
+    const TiledPolyhedron set(sphere, {200, store});
     CHECK(store->counts().written == 0);
   }
   CHECK(folder.file_count() == 0);
@@ -85,10 +86,10 @@ TEST_CASE("what a killed run left is removed by the next one that needs files") 
   static_cast<void>(folder.write(".nef-tiles-dead00/alive", ""));
   static_cast<void>(folder.write(".nef-tiles-dead00/1.nef", "x"));
   const std::shared_ptr<TileStore> alive = store_in(folder, 1);
-  const TiledPolyhedron first(make_sphere(10, 30), {100, 1, alive});
+  const TiledPolyhedron first(make_sphere(10, 30), {100, alive});
   CHECK_FALSE(std::filesystem::exists(folder.path() / ".nef-tiles-dead00"));
   // A run that is alive keeps its own.
-  const TiledPolyhedron second(make_sphere(10, 30), {100, 1, store_in(folder, 1)});
+  const TiledPolyhedron second(make_sphere(10, 30), {100, store_in(folder, 1)});
   CHECK(folder.file_count() == 2);
   glued_is(first, make_sphere(10, 30), "the first");
 }
@@ -97,10 +98,10 @@ TEST_CASE("volume and box read each tile once, on one thread and on several") {
   const TemporaryFolder folder;
   const std::string path = folder.file("s.tiles");
   const Polyhedron solid = subtract(make_sphere(10, 60), notch(1));
-  write_tiles(path, TiledPolyhedron(solid, {200, 1}));
+  write_tiles(path, TiledPolyhedron(solid, {200}));
   for (const unsigned threads : {1U, 3U}) {
     const std::shared_ptr<TileStore> store = store_in(folder, 1);  // holds one
-    const TiledPolyhedron set = read_tiles(path, store, threads);
+    const TiledPolyhedron set = read_tiles(path, store, Monitor().on_threads(threads));
     for (const bool inside_out : {false, true}) {
       const std::size_t before = store->counts().read;
       const auto [found, box] = volume_and_bounding_box(inside_out ? complement(set) : set);
@@ -120,7 +121,7 @@ TEST_CASE("versions in folders share nothing that they lose, and write what is n
   const TemporaryFolder folder;
   const Polyhedron sphere = make_sphere(10, 60);
   const std::string path = folder.file("s.tiles");
-  write_tiles(path, TiledPolyhedron(sphere, {200, 1}));
+  write_tiles(path, TiledPolyhedron(sphere, {200}));
   const std::size_t first_files = tile_files(path);
   REQUIRE(first_files > 5);
   const std::shared_ptr<TileStore> store = store_in(folder, 1'000'000'000);
@@ -145,7 +146,7 @@ TEST_CASE("versions in folders share nothing that they lose, and write what is n
 TEST_CASE("damaged folders are refused with a line") {
   const TemporaryFolder folder;
   const std::string path = folder.file("s.tiles");
-  write_tiles(path, TiledPolyhedron(make_sphere(10, 30), {100, 1}));
+  write_tiles(path, TiledPolyhedron(make_sphere(10, 30), {100}));
   const std::string index = slurp(path + "/index");
   // Any byte of the index.
   for (std::size_t i = 0; i < index.size(); i += 7) {

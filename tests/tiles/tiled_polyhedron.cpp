@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What is done in tiles is what is done without them, whatever the cuts.
+// What is done in tiles (nef/tiles/) is what is done without them, whatever the cuts.
 #include <catch2/catch.hpp>
 
 #include "nef/base/error.h"
@@ -63,14 +63,15 @@ TEST_CASE("a plain operand need not be cut") {
 
 TEST_CASE("tiles small enough to split and join under way", "[threads]") {
   for_all_cut_pairs("small tiles", 4, [](const Polyhedron& a, const Polyhedron& b, const Cuts&, const Cuts&) {
-    const Tiling tiling{*rc::gen::inRange<std::size_t>(8, 40), *rc::gen::element(1U, 2U)};
-    const TiledPolyhedron x(a, tiling);
+    const Tiling tiling{*rc::gen::inRange<std::size_t>(8, 40)};
+    const Monitor monitor = Monitor().on_threads(*rc::gen::element(1U, 2U));
+    const TiledPolyhedron x(a, tiling, monitor);
     leaves_are_valid(x.tree(), "A");
     glued_is(x, a, "A");
-    glued_is(unite(x, b), unite(a, b), "A + B");
-    glued_is(subtract(subtract(x, b), TiledPolyhedron(b, tiling)), subtract(a, b), "A - B - B");
-    glued_is(intersect(unite(x, b), b), b, "(A + B) * B");
-    if (!equal(symmetric_difference(symmetric_difference(x, b), b), x)) RC_FAIL("A ^ B ^ B");
+    glued_is(unite(x, b, monitor), unite(a, b), "A + B");
+    glued_is(subtract(subtract(x, b, monitor), TiledPolyhedron(b, tiling), monitor), subtract(a, b), "A - B - B");
+    glued_is(intersect(unite(x, b), b, monitor), b, "(A + B) * B");
+    if (!equal(symmetric_difference(symmetric_difference(x, b, monitor), b, monitor), x)) RC_FAIL("A ^ B ^ B");
   });
 }
 
@@ -85,7 +86,7 @@ TEST_CASE("a tile that nobody has cut is cut where a step touches it") {
   std::size_t cut = 0;
   for_all_cut_pairs("uncut", 2, [&](const Polyhedron& a, const Polyhedron& b, const Cuts&, const Cuts&) {
     const Polyhedron whole = unite(a, far);
-    const Tiling tiling{*rc::gen::inRange<std::size_t>(16, 60), 1};
+    const Tiling tiling{*rc::gen::inRange<std::size_t>(16, 60)};
     const TiledPolyhedron x(tile_leaf(in_two_marks(whole, {}), nullptr, true), tiling);
     glued_is(unite(x, b), unite(whole, b), "A + B");
     glued_is(intersect(x, b), intersect(whole, b), "A * B");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // glTF files: by their specification, and read by assimp where it is installed.
-#include "nef/view/glb.h"
+#include "apps/view/glb.h"
 
 #include <catch2/catch.hpp>
 #include <cstring>

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <iostream>
 
-#include "nef/view/image.h"
-#include "nef/view/page.h"
+#include "apps/view/image.h"
+#include "apps/view/page.h"
 #include "view/sets.h"
 
 namespace nef::view {

@@ -8,10 +8,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "apps/view/page.h"
+#include "apps/view/page/byte_text.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
-#include "nef/view/page.h"
-#include "nef/view/page/byte_text.h"
 #include "view/sets.h"
 
 namespace nef::view {

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "apps/view/picture.h"
 #include "nef/base/error.h"
-#include "nef/view/picture.h"
 #include "view/sets.h"
 
 namespace nef::view {

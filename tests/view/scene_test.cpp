@@ -5,10 +5,10 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "apps/view/page/sphere_drawing.h"
+#include "apps/view/picture/picture_camera.h"
 #include "nef/base/error.h"
 #include "nef/geometry/vectors.h"
-#include "nef/view/page/sphere_drawing.h"
-#include "nef/view/picture/picture_camera.h"
 #include "view/sets.h"
 
 namespace nef::view {

@@ -3,8 +3,8 @@
 // Sets that the tests look at.
 #pragma once
 
+#include "apps/view/layer.h"
 #include "nef/construct/construct.h"
-#include "nef/view/layer.h"
 
 namespace nef::view {
 

@@ -25,6 +25,10 @@ struct Segment {
   std::uint32_t from_point = kNone, to_point = kNone;  ///< where it ends, if that is a candidate already
   std::vector<Interval> open;                          ///< what is not surely covered
 
+  /// The point at a parameter, rounded.
+  [[nodiscard]] Double3 at(double t) const {
+    return {from[0] + t * (to[0] - from[0]), from[1] + t * (to[1] - from[1]), from[2] + t * (to[2] - from[2])};
+  }
   /// A box around all of it.
   [[nodiscard]] Box box() const;
   /// A box around a part of it.

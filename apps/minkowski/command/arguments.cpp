@@ -6,8 +6,10 @@
 
 #include <algorithm>
 
+#include "apps/program/common_options.h"
 #include "nef/base/error.h"
-#include "nef/program/common_options.h"
+#include "nef/base/word_list.h"
+#include "nef/io/polyhedron_file.h"
 
 namespace nef::minkowski {
 namespace {
@@ -35,6 +37,7 @@ std::vector<TaskOption> task_options(const Arguments& a) {
           {Task::kNoFit, "--no-fit", a.no_fit},
           {Task::kPenetration, "--penetration", a.penetration},
           {Task::kReach, "--reach", a.reach},
+          {Task::kMillable, "--millable", a.millable},
           {Task::kConfigurationSpace, "--configuration-space", a.configuration_space},
           {Task::kDecompose, "--decompose", a.decompose}};
 }
@@ -66,18 +69,21 @@ void declare_tasks(CLI::App& app, Arguments& a) {
   app.add_option(
          "--labels", a.labels,
          "Of --reach: a mesh file for the part's whole boundary, its faces in two groups, touched and untouched "
-         "(groups in OBJ, colours in OFF, PLY and GLB)")
+         "(groups in OBJ, colours in OFF, PLY and GLB). Of --millable: for what the tool leaves beyond the part, in "
+         "groups region1, region2, ... by descending volume")
       ->type_name("FILE");
+  app.add_flag("--millable", a.millable,
+               "PART TOOL: what is left of a block around the part where the tool has cut all that it can without "
+               "cutting into the part");
+  app.add_option("--axes", a.axes, "3, of --millable: the tool comes down the z axis, so what is above it must be free")
+      ->check(CLI::IsMember({3}));
   app.add_flag("--decompose", a.decompose, "Write the convex cells of A, to one mesh file or into a directory");
   app.add_option("--format", a.format, "Of cells in a directory: off (default), ply, obj, or nef (exact, with marks)")
       ->check(CLI::IsMember({"off", "ply", "obj", "nef"}));
   app.add_flag("--configuration-space", a.configuration_space, "Free positions of a robot among obstacles");
   app.add_option("--robot", a.robot, "The robot; its reference point is the origin")->type_name("FILE");
   app.add_option("--obstacles", a.obstacles, "The obstacles")->expected(-1)->type_name("FILE");
-  app.add_option("--box", a.box,
-                 "x0,y0,z0,x1,y1,z1: what bounds the reference point (two words x0,y0,z0 x1,y1,z1 will do)")
-      ->expected(1, 2)
-      ->type_name("BOX");
+  app.add_option("--box", a.box, "x0,y0,z0,x1,y1,z1: what bounds the reference point")->type_name("BOX");
 }
 
 Task task_of(const Arguments& a) {
@@ -101,16 +107,21 @@ bool has_tool(const Arguments& a) { return !a.ball.empty() || !a.box_tool.empty(
 
 void check_output(const Arguments& a, Task task) {
   if (task == Task::kPenetration) {
-    if (!a.output.empty()) throw InputError("--penetration prints its answer: -o does not go with it (--report does)");
-  } else if (a.output.empty()) {
+    if (!a.session.output.empty())
+      throw InputError("--penetration prints its answer: -o does not go with it (--report does)");
+  } else if (a.session.output.empty()) {
     throw InputError("-o (--output) is needed: a file for the result");
   }
   if (!a.format.empty() && task != Task::kDecompose) {
     throw InputError("--format goes with --decompose; -o names a file by its extension");
   }
-  if (task != Task::kReach && !(a.from.empty() && a.touched.empty() && a.untouched.empty() && a.labels.empty())) {
-    throw InputError("--from, --touched, --untouched and --labels go with --reach");
+  if (task != Task::kReach && !(a.from.empty() && a.touched.empty() && a.untouched.empty())) {
+    throw InputError("--from, --touched and --untouched go with --reach");
   }
+  if (task != Task::kReach && task != Task::kMillable && !a.labels.empty()) {
+    throw InputError("--labels goes with --reach and --millable");
+  }
+  if (task != Task::kMillable && a.axes != 0) throw InputError("--axes goes with --millable");
   if (a.inner && a.outer) throw InputError("--inner and --outer exclude each other: give one of them");
   if ((a.inner || a.outer) && task != Task::kOffset && a.ball.empty()) {
     throw InputError("--inner and --outer go with --offset or --ball");
@@ -150,9 +161,11 @@ void check_operands(const Arguments& a, Task task) {
 }  // namespace
 
 void declare(CLI::App& app, Arguments& a) {
-  app.add_option("operands", a.operands, "A and B: .nef, .nef3, or a mesh (off, obj, stl, ply, glb, 3mf)")
+  app.add_option("operands", a.operands,
+                 "A and B: sets or meshes (" + word_list(file_extensions(), "or") + "), or folders NAME.tiles")
       ->type_name("FILE");
-  app.add_option("-o,--output", a.output, "Where the result goes; the extension says the format")->type_name("FILE");
+  app.add_option("-o,--output", a.session.output, "Where the result goes; the extension says the format")
+      ->type_name("FILE");
   app.add_flag("--open-a", a.open_a, "Take the interior of A");
   app.add_flag("--open-b", a.open_b, "Take the interior of B");
   app.add_flag("--negate-b", a.negate_b, "Take -B instead of B");
@@ -170,17 +183,17 @@ void declare(CLI::App& app, Arguments& a) {
                  "How a sum is made: auto (default), convolution (without cells), queue (of sums of cells)")
       ->check(CLI::IsMember(strategy_names()));
   declare_tasks(app, a);
-  add_mesh_input_options(app, a.mesh);
-  add_file_output_options(app, a.exact, a.binary, a.text);
-  add_manifold_option(app, a.mesh_file.manifold);
-  add_mesh_file_options(app, a.mesh_file);
-  app.add_option("--report", a.report, "Write a JSON report: cells, pairs, times, predicates, memory, result")
+  add_input_flags(&app, a.session);
+  add_file_output_options(app, a.session.exact, a.session.binary, a.session.text);
+  add_manifold_option(app, a.session.mesh_file.manifold);
+  add_mesh_file_options(app, a.session.mesh_file);
+  app.add_option("--report", a.session.report, "Write a JSON report: cells, pairs, times, predicates, memory, result")
       ->type_name("FILE");
   app.add_flag("--exact-volume", a.exact_volume,
                "Report the exact volume of the result, too: it may have millions of digits");
   app.add_option("--preview", a.preview, "Write pictures (PNG) of the operands and the result into this directory")
       ->type_name("DIR");
-  add_run_options(app, a.json, a.quiet, a.threads);
+  add_run_flags(&app, a.session);
 }
 
 std::string name(Task task) {

@@ -4,15 +4,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <array>
-#include <optional>
+#include <iostream>
 #include <string>
 #include <vector>
 
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/morphology.h"
-#include "nef/construct/construct.h"
-#include "nef/program/common_options.h"
+#include "apps/program/session.h"
 
 namespace nef::minkowski {
 
@@ -28,25 +26,25 @@ enum class Task : std::uint8_t {
   kNoFit,
   kPenetration,
   kReach,
+  kMillable,
   kConfigurationSpace,
   kDecompose
 };
 
-/// The parsed command line.
+/// The parsed command line: what all programs have in `session`, the operands and their changes.
 struct Arguments {
   std::vector<std::string> operands;
-  std::string output, report, preview;
+  Session session{"minkowski", std::cout, std::cerr};
+  std::string preview;
   std::string union_name = "auto";
   bool open_a = false, open_b = false, negate_b = false, hull_b = false;
-  MeshOptions mesh;
-  unsigned threads = 0;  ///< 0: as many as the machine has
-  MeshFileFlags mesh_file;
-  bool exact = false, binary = false, text = false, quiet = false, json = false;
   bool exact_volume = false;
 
   std::string ball, box_tool;  ///< as written: "R,N", "x,y,z"
   bool inner = false, outer = false;
   bool erode = false, open = false, close = false, hull = false, no_fit = false, penetration = false, reach = false;
+  bool millable = false;
+  int axes = 0;        ///< of --millable; 0: not given
   std::string offset;  ///< "R" or "R,N"
   std::vector<std::string> sweep;
   std::string from, touched, untouched, labels;
@@ -56,7 +54,7 @@ struct Arguments {
   bool configuration_space = false;
   std::string robot;
   std::vector<std::string> obstacles;
-  std::vector<std::string> box;  ///< two corners "x,y,z"
+  std::string box;  ///< "x0,y0,z0,x1,y1,z1"
 };
 
 /// Declares all options.

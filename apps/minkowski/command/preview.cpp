@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
+#include "apps/view/picture.h"
 #include "nef/base/error.h"
-#include "nef/view/picture.h"
 
 namespace nef::minkowski {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
-#include <iostream>
+#include <sstream>
 
 #include "apps/minkowski/command/arguments.h"
 #include "apps/minkowski/command/preview.h"
@@ -16,28 +16,27 @@
 #include "apps/minkowski/command/write_cells.h"
 #include "apps/minkowski/convex/tools.h"
 #include "apps/minkowski/morphology.h"
+#include "apps/program/numbers.h"
+#include "apps/program/report.h"
+#include "apps/program/run_program.h"
+#include "apps/program/set_info.h"
+#include "nef/base/counted.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/io/file_bytes.h"
-#include "nef/io/mesh/mesh_reader.h"
+#include "nef/io/mesh/mesh_formats.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/number/brief_text.h"
+#include "nef/operation/label_inputs.h"
 #include "nef/polyhedron.h"
-#include "nef/program/notes.h"
-#include "nef/program/numbers.h"
-#include "nef/program/progress_bar.h"
-#include "nef/program/report.h"
-#include "nef/program/run_program.h"
-#include "nef/program/set_info.h"
 
 namespace nef::minkowski {
 namespace {
 
 class Run {
  public:
-  Run(const Arguments& arguments, Task task)
-      : a_(arguments), task_(task), notes_("minkowski", std::cerr, arguments.quiet) {
-    options_.threads = a_.threads;
+  Run(Arguments& arguments, Task task) : a_(arguments), session_(arguments.session), task_(task) {
     options_.strategy = strategy(a_);
+    options_.monitor = session_.monitor;
   }
 
   void run() {
@@ -47,49 +46,28 @@ class Run {
       tell_penetration();
     } else {
       const Polyhedron result = compute();
-      store(a_.output, result);
+      store(session_.output, result);
       preview(result);
-      print_report(report(result));
-      if (!a_.quiet && !a_.json) std::cout << summary(result) << "\n";
+      print_report([&] { return report(result); });
+      session_.say(summary(result));
     }
   }
 
  private:
-  Polyhedron load(const std::string& path) {
-    const Stopwatch watch;
-    Messages messages;
-    Polyhedron set = read_polyhedron(path, a_.mesh, &messages);
-    load_s_ += watch.seconds();
-    notes_.note(messages);
-    return set;
-  }
-
-  [[nodiscard]] PolyhedronWriteOptions write_options() const {
-    return {.exact = a_.exact,
-            .binary = a_.binary,
-            .text = a_.text,
-            .manifold = a_.mesh_file.manifold,
-            .lenient = a_.mesh_file.lenient,
-            .recenter = a_.mesh_file.recenter,
-            .threads = a_.threads};
-  }
+  Polyhedron load(const std::string& path) { return session_.load(path); }
 
   // Writes a file by `write`, whose notes are shown.
   void write_timed(const std::string& path, const std::function<WrittenFile(Messages& notes)>& write) {
-    const Stopwatch watch;
     const SignalsHeld held;
-    Messages notes;
-    const WrittenFile written = write(notes);
-    write_s_ += watch.seconds();
-    notes_.note(notes);
-    notes_.wrote(path, written);
+    session_.write(path, write);
   }
 
   void store(const std::string& path, const Polyhedron& result) {
-    PolyhedronWriteOptions options = write_options();
+    PolyhedronWriteOptions options = session_.write_options(path);
     const bool one_of_many = !(a_.touched.empty() && a_.untouched.empty() && a_.labels.empty());
-    if (one_of_many && !is_mesh_extension(lower_extension(path))) options.manifold = options.recenter = false;
-    write_timed(path, [&](Messages& notes) { return write_polyhedron(path, result, options, &notes); });
+    if (one_of_many && find_mesh_format(lower_extension(path)) == nullptr) options.manifold = options.recenter = false;
+    const SignalsHeld held;
+    session_.store_at(path, result, options);
   }
 
   void preview(const Polyhedron& result) {
@@ -115,9 +93,10 @@ class Run {
 
   // For people; the report has the exact numbers.
   void tell_error(const std::string& what, Side side, const Rational& error) const {
-    if (a_.quiet || a_.json) return;
-    std::cout << what << ": " << (side == Side::kInner ? "inner" : "outer") << ", within " << nearest_double(error)
-              << " of the round one\n";
+    std::ostringstream line;
+    line << what << ": " << (side == Side::kInner ? "inner" : "outer") << ", within " << nearest_double(error)
+         << " of the round one";
+    session_.say(line.str());
   }
 
   static int splits(const Rational& n, const std::string& option) {
@@ -137,9 +116,8 @@ class Run {
   }
 
   Polyhedron compute() {
-    ProgressBar bar(!a_.quiet);
-    options_.progress = [this, &bar](std::size_t done, std::size_t all) {
-      bar.show(name(task_) + ", %", done / 10, all / 10);
+    options_.progress = [this](std::size_t done, std::size_t all) {
+      session_.show_phase(name(task_) + ", %", done / 10, all / 10);
       return true;
     };
     switch (task_) {
@@ -147,6 +125,8 @@ class Run {
         return free_space();
       case Task::kReach:
         return reached();
+      case Task::kMillable:
+        return milled();
       case Task::kOffset:
       case Task::kSweep:
       case Task::kHull:
@@ -206,8 +186,8 @@ class Run {
   void offer_hull(const Polyhedron& b) {
     const std::optional<Rational> excess = excess_of_hull(b);
     if (!excess) return;
-    notes_.note(
-        {"B is convex but for " + scientific(*excess) + " of its volume: --hull-b takes its hull, which holds B"});
+    session_.note("B is convex but for " + scientific(*excess) +
+                  " of its volume: --hull-b takes its hull, which holds B");
   }
 
   Polyhedron combined(const Polyhedron& a, const Polyhedron& b) {
@@ -241,14 +221,14 @@ class Run {
                              {"translation", point_json(p.translation)},
                              {"squared_length", to_string(p.squared_length)},
                              {"length", std::sqrt(nearest_double(p.squared_length))}};
-    print_report(object);
-    if (a_.quiet || a_.json) return;
-    std::cout << kind;
+    print_report([&] { return object; });
+    std::ostringstream line;
+    line << kind;
     if (p.kind != Penetration::Kind::kTouching) {
-      std::cout << ": move B by " << point_text(p.translation) << (overlap ? " to separate them" : " to contact")
-                << " (" << std::sqrt(nearest_double(p.squared_length)) << ")";
+      line << ": move B by " << point_text(p.translation) << (overlap ? " to separate them" : " to contact") << " ("
+           << std::sqrt(nearest_double(p.squared_length)) << ")";
     }
-    std::cout << "\n";
+    session_.say(line.str());
   }
 
   Polyhedron reached() {
@@ -270,6 +250,31 @@ class Run {
     return found.positions;
   }
 
+  Polyhedron milled() {
+    const auto [part, tool] = both_operands();
+    const Approach approach = a_.axes == 3 ? Approach::kFromAbove : Approach::kAnywhere;
+    const Millable found = millable(part, tool, approach, options_, &report_);
+    details_["unreached"] = Json::array();
+    for (const Polyhedron& region : found.unreached) {
+      details_["unreached"].push_back(set_info(region, {.exact = a_.exact_volume, .bounds = true}));
+    }
+    if (!a_.labels.empty()) store_regions(found.unreached);
+    session_.say(counted(found.unreached.size(), "region", "regions") +
+                 " beyond the part that the tool does not reach");
+    return found.shape;
+  }
+
+  // What the tool leaves beyond the part, face by face with the region that it bounds.
+  void store_regions(const std::vector<Polyhedron>& regions) {
+    const LabeledPolyhedron<InputSet> labeled = label_inputs(regions, session_.monitor);
+    BoundaryGroups groups;
+    groups.selected = [&](LabelId mark) { return mark < labeled.labels().size() && !labeled.label(mark).empty(); };
+    groups.name = [&](LabelId inside, LabelId, LabelId) {
+      return "region" + std::to_string(labeled.label(inside).front() + 1);
+    };
+    store_faces(labeled.polyhedron(), groups);
+  }
+
   // The part's boundary, face by face with what the tool can do there.
   void store_labels(const Polyhedron& part, const Reach& found) {
     enum : LabelId { kBody = 1, kTouched = 2 };
@@ -279,7 +284,11 @@ class Run {
     BoundaryGroups groups;
     groups.selected = [](LabelId mark) { return mark == kBody || mark == kTouched; };
     groups.name = [](LabelId, LabelId, LabelId facet) { return facet == kTouched ? "touched" : "untouched"; };
-    PolyhedronWriteOptions options = write_options();
+    store_faces(labeled, groups);
+  }
+
+  void store_faces(const Polyhedron& labeled, const BoundaryGroups& groups) {
+    PolyhedronWriteOptions options = session_.write_options(a_.labels);
     options.manifold = false;  // which cuts faces, so that they can have no groups
     write_timed(a_.labels, [&](Messages& notes) {
       WrittenFile written;
@@ -290,13 +299,12 @@ class Run {
 
   Polyhedron free_space() {
     const Polyhedron robot = load(a_.robot);
-    std::vector<Polyhedron> obstacles;
-    for (const std::string& path : a_.obstacles) obstacles.push_back(load(path));
-    shown_ = {{"robot", robot}, {"obstacles", a_.preview.empty() ? Polyhedron() : unite_all(obstacles, a_.threads)}};
+    const std::vector<Polyhedron> obstacles = session_.load_all(a_.obstacles);
+    shown_ = {{"robot", robot},
+              {"obstacles", a_.preview.empty() ? Polyhedron() : unite_all(obstacles, session_.monitor)}};
     std::optional<std::array<Rational3, 2>> box;
     if (!a_.box.empty()) {
-      const std::string words = a_.box.size() == 1 ? a_.box[0] : a_.box[0] + "," + a_.box[1];
-      const std::vector<Rational> n = parse_numbers(words, 6, "--box");
+      const std::vector<Rational> n = parse_numbers(a_.box, 6, "--box");
       const Rational3 low{n[0], n[1], n[2]};
       const Rational3 high{n[3], n[4], n[5]};
       for (std::size_t i = 0; i < 3; ++i) {
@@ -315,10 +323,13 @@ class Run {
     const std::vector<ConvexCell> cells = decompose(a);
     report_.seconds_decomposition = report_.seconds_total = watch.seconds();
     report_.cells_a = cells.size();
-    write_timed(a_.output, [&](Messages& notes) {
-      const CellFiles files{
-          .format = a_.format.empty() ? "off" : a_.format, .exact = a_.exact, .recenter = a_.mesh_file.recenter};
-      return WrittenFile{.offset = write_cells(a_.output, cells, files, notes)};
+    write_timed(session_.output, [&](Messages& notes) {
+      return write_cells(session_.output, cells,
+                         {.format = a_.format.empty() ? "off" : a_.format,
+                          .exact = session_.exact,
+                          .recenter = session_.mesh_file.recenter,
+                          .lenient = session_.mesh_file.lenient},
+                         notes);
     });
     if (!a_.preview.empty()) {
       const SignalsHeld held;
@@ -329,8 +340,8 @@ class Run {
     std::array<std::size_t, 4> count{};
     for (const ConvexCell& cell : cells) ++count[static_cast<std::size_t>(cell.dimension)];
     object["cells_by_dimension"] = count;
-    print_report(object);
-    if (!a_.quiet && !a_.json) std::cout << cells.size() << (cells.size() == 1 ? " cell\n" : " cells\n");
+    print_report([&] { return object; });
+    session_.say(counted(cells.size(), "cell", "cells"));
   }
 
   [[nodiscard]] Json report(const Polyhedron& result) const {
@@ -356,34 +367,28 @@ class Run {
                                {"regions_tested", report_.convolution_regions}};
     }
     for (const auto& [key, value] : details_.items()) object[key] = value;
-    notes_.add_offsets(object);
     return object;
   }
 
-  void print_report(const Json& found) const {
-    const std::vector<ReportPhase> phases{
-        {"load", load_s_, {}},
-        {"decomposition", report_.seconds_decomposition, report_.predicates_decomposition},
-        {"convex_sums", report_.seconds_convex_sums, report_.predicates_convex_sums},
-        {"union", report_.seconds_union, report_.predicates_union},
-        {"op", report_.seconds_total, {}},
-        {"write", write_s_, {}}};
-    const std::string text = report_text(run_report(name(task_), found, phases, notes_.list()));
-    if (a_.json) std::cout << text;
-    if (a_.report.empty()) return;
+  // Makes the report if one is wanted.
+  void print_report(const std::function<Json()>& found) {
+    if (!session_.json && session_.report.empty()) return;
+    session_.spent("decomposition", report_.seconds_decomposition, report_.predicates_decomposition);
+    session_.spent("convex_sums", report_.seconds_convex_sums, report_.predicates_convex_sums);
+    session_.spent("union", report_.seconds_union, report_.predicates_union);
+    session_.spent("op", report_.seconds_total);
+    if (session_.output.empty()) session_.spent("write", 0);  // all reports of the program have it
     const SignalsHeld held;
-    write_file(a_.report, text);
+    session_.print(name(task_), found());
   }
 
   const Arguments& a_;
+  Session& session_;
   Task task_;
   MinkowskiOptions options_;
   MinkowskiReport report_;
   Json details_ = Json::object();                          // of the task, for the report
   std::vector<std::pair<std::string, Polyhedron>> shown_;  // for the preview
-  Notes notes_;                                            // what was done to inputs, and what an output does not hold
-  double load_s_ = 0;
-  double write_s_ = 0;
 };
 
 }  // namespace
@@ -395,10 +400,11 @@ int run_command(int argc, char** argv) {
   app.footer("Exit codes: 0 done, 2 bad input or usage.");
   Arguments arguments;
   declare(app, arguments);
-  return run_program(app, argc, argv, [&arguments] {
+  const auto run = [&arguments] {
     Run(arguments, check(arguments)).run();
     return 0;
-  });
+  };
+  return run_program(app, argc, argv, run, [&](const std::string& line) { arguments.session.complain(line); });
 }
 
 }  // namespace nef::minkowski

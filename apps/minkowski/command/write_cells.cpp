@@ -12,8 +12,10 @@
 #include <filesystem>
 #include <set>
 
+#include "nef/base/counted.h"
 #include "nef/geometry/vectors.h"
 #include "nef/io/file_bytes.h"
+#include "nef/io/mesh/mend_rounded.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/mesh/recenter.h"
 #include "nef/polyhedron.h"
@@ -119,6 +121,23 @@ Rational3 middle_of(std::span<const ConvexCell> cells) {
   return middle_of_few_digits(points);
 }
 
+// What is wrong with solid cells as they are written; empty if nothing is.
+std::string problem_of_rounded(const std::string& path, std::span<const ConvexCell> cells, const Rational3& offset) {
+  std::string first;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (cells[i].dimension < 3) continue;
+    Mesh mesh = cells[i].mesh;
+    for (Rational3& p : mesh.vertices) p = minus(p, offset);
+    const std::string problem = rounded_problem(mesh, rounding_to_decimals());
+    if (problem.empty()) continue;
+    if (++count == 1) first = "cell " + std::to_string(i + 1) + ": " + problem;
+  }
+  if (count == 0) return {};
+  return path + ": " + counted(count, "cell is", "cells are") + " no solid any more with rounded coordinates (" +
+         first + ")";
+}
+
 std::string cell_path(const std::string& directory, std::size_t cell, const std::string& format) {
   std::string digits = std::to_string(cell + 1);
   digits.insert(0, digits.size() < 4 ? 4 - digits.size() : 0, '0');
@@ -142,8 +161,8 @@ std::string stale_cell(const std::string& directory, std::size_t cells, const st
 
 }  // namespace
 
-Rational3 write_cells(const std::string& path, std::span<const ConvexCell> cells, const CellFiles& files,
-                      Messages& messages) {
+WrittenFile write_cells(const std::string& path, std::span<const ConvexCell> cells, const CellFiles& files,
+                        Messages& messages) {
   const bool is_directory = std::filesystem::is_directory(path);
   const std::string extension = is_directory ? "" : lower_extension(path);
   const std::string format = extension.empty() ? files.format : extension;
@@ -156,9 +175,14 @@ Rational3 write_cells(const std::string& path, std::span<const ConvexCell> cells
                        " of the cells are segments or points, which PLY leaves out");
   }
   const Coordinates coordinates{.exact = files.exact, .offset = files.recenter ? middle_of(cells) : Rational3{}};
+  WrittenFile written{.offset = coordinates.offset};
+  if (!files.exact && format != "nef") written.problem = problem_of_rounded(path, cells, coordinates.offset);
+  if (!written.problem.empty() && !files.lenient) {
+    throw UnsupportedError(written.problem + "; --exact keeps them, --lenient writes them as they are");
+  }
   if (!extension.empty()) {
     write_mesh_file(path, cells, 0, extension, coordinates);
-    return coordinates.offset;
+    return written;
   }
   std::error_code error;
   std::filesystem::create_directories(path, error);
@@ -174,7 +198,7 @@ Rational3 write_cells(const std::string& path, std::span<const ConvexCell> cells
       write_mesh_file(file, cells.subspan(i, 1), i, format, coordinates);
     }
   }
-  return coordinates.offset;
+  return written;
 }
 
 }  // namespace nef::minkowski

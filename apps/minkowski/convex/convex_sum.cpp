@@ -15,6 +15,7 @@
 #include "apps/minkowski/convex/normal_diagram.h"
 #include "nef/base/error.h"
 #include "nef/base/id.h"
+#include "nef/geometry/vectors.h"
 
 namespace nef::minkowski {
 namespace {
@@ -77,7 +78,7 @@ void SolidSum::add_corner(std::uint32_t i, std::uint32_t j) {
   const auto [it, is_new] = vertex_.try_emplace(key, static_cast<std::uint32_t>(pairs_.size()));
   if (is_new) {
     pairs_.push_back({i, j});
-    sum_.mesh.vertices.push_back(sum_of_points(p_.cell().mesh.vertices[i], q_.cell().mesh.vertices[j]));
+    sum_.mesh.vertices.push_back(plus(p_.cell().mesh.vertices[i], q_.cell().mesh.vertices[j]));
   }
   face_.push_back(it->second);
 }

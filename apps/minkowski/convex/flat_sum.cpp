@@ -6,6 +6,7 @@
 #include <span>
 
 #include "nef/construct/convex_hull.h"
+#include "nef/geometry/vectors.h"
 
 namespace nef::minkowski {
 namespace {
@@ -45,7 +46,7 @@ ConvexCell flat_sum(const ConvexCell& c, const ConvexCell& d, const Monitor& mon
   std::vector<Rational3> points;
   points.reserve(c.mesh.vertices.size() * d.mesh.vertices.size());
   for (const Rational3& p : c.mesh.vertices) {
-    for (const Rational3& q : d.mesh.vertices) points.push_back(sum_of_points(p, q));
+    for (const Rational3& q : d.mesh.vertices) points.push_back(plus(p, q));
   }
   Hull hull = hull_of(points, monitor);
   ConvexCell sum;

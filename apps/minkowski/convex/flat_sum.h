@@ -7,10 +7,6 @@
 
 namespace nef::minkowski {
 
-inline Rational3 sum_of_points(const Rational3& a, const Rational3& b) {
-  return {Rational(a[0] + b[0]), Rational(a[1] + b[1]), Rational(a[2] + b[2])};
-}
-
 /// The sum of cells of any dimensions by the hull of all sums of their vertices. O(n m log(n m)) expected.
 ConvexCell flat_sum(const ConvexCell& c, const ConvexCell& d, const Monitor& monitor);
 

@@ -18,10 +18,6 @@ using nef::cross;
 using nef::dot;
 using nef::minus;
 
-Rational3 plus(const Rational3& a, const Rational3& b) {
-  return {Rational(a[0] + b[0]), Rational(a[1] + b[1]), Rational(a[2] + b[2])};
-}
-
 // A vector that is not parallel to d.
 Rational3 across(const Rational3& d) {
   return d[0] == 0 && d[1] == 0 ? Rational3{1, 0, 0} : Rational3{Rational(-d[1]), d[0], 0};
@@ -84,7 +80,7 @@ Polyhedron to_polyhedron(const SpannedSet& set, bool closed, const Monitor& moni
     sets.push_back(c.is_plane ? plane_of(c, monitor)
                               : make_halfspace(c.n[0], c.n[1], c.n[2], Rational(-dot(c.n, c.p)), closed, monitor));
   }
-  return intersect_all(sets, 1, monitor);
+  return intersect_all(sets, monitor);
 }
 
 std::vector<Polyhedron> border_planes(const SpannedSet& set, const Monitor& monitor) {

@@ -88,8 +88,8 @@ struct RegionsInside {
 
 // For each region around a vertex whether it is inside.
 RegionsInside regions_inside(const ConvolutionFacets& facets, FacetPyramids& pyramids, const SumMembership& membership,
-                             const std::vector<RegionVertex>& vertices, Regions& regions, unsigned threads,
-                             const Monitor& monitor, const std::function<void(double)>& poll) {
+                             const std::vector<RegionVertex>& vertices, Regions& regions, const Monitor& monitor,
+                             const std::function<void(double)>& poll) {
   enum : std::uint8_t { kOut, kIn, kUnknown, kAsked };
   std::vector<std::uint8_t> state(regions.same.size(), kUnknown);
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
@@ -111,13 +111,19 @@ RegionsInside regions_inside(const ConvolutionFacets& facets, FacetPyramids& pyr
       state[region] = kAsked;
       const Direction into =
           v.map.view().trivial() ? Direction::exact(1, 0, 0) : direction_into(facets.planes, v.map.view(), f, monitor);
-      questions.push_back({region, pyramids.point_towards(v.point, into)});
+      Rational3 point = pyramids.point_towards(v.point, into);
+      const Double3 near = {nearest_double(point[0]), nearest_double(point[1]), nearest_double(point[2])};
+      if (facets.covered.cover({&near, 1})) {
+        state[region] = kIn;
+      } else {
+        questions.push_back({region, std::move(point)});
+      }
     }
   }
   constexpr std::size_t kBlock = 64;
   for (std::size_t first = 0; first < questions.size(); first += kBlock) {
     poll(static_cast<double>(first) / static_cast<double>(questions.size()));
-    parallel_for(std::min(kBlock, questions.size() - first), threads, monitor, [&](std::size_t k, const Monitor& own) {
+    parallel_for(std::min(kBlock, questions.size() - first), monitor, [&](std::size_t k, const Monitor& own) {
       const Question& q = questions[first + k];
       state[q.region] = membership.in_closure(q.point, own) ? kIn : kOut;
     });
@@ -128,9 +134,8 @@ RegionsInside regions_inside(const ConvolutionFacets& facets, FacetPyramids& pyr
 
 // Marks all items around all vertices; says how many were put to the definition.
 std::size_t mark_boundary(const ConvolutionFacets& facets, FacetPyramids& pyramids, const SumMembership& membership,
-                          const Regions& regions, const std::vector<std::uint8_t>& inside, unsigned threads,
-                          const Monitor& monitor, const std::function<void(double)>& poll,
-                          std::vector<RegionVertex>& vertices) {
+                          const Regions& regions, const std::vector<std::uint8_t>& inside, const Monitor& monitor,
+                          const std::function<void(double)>& poll, std::vector<RegionVertex>& vertices) {
   BoundaryMarker marker(pyramids, facets, monitor);
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
     RegionVertex& v = vertices[i];
@@ -144,7 +149,7 @@ std::size_t mark_boundary(const ConvolutionFacets& facets, FacetPyramids& pyrami
       marker.mark(v.point, v.is_saddle_point, v.map);
     }
   }
-  marker.answer(membership, threads, poll);
+  marker.answer(membership, poll);
   return marker.tested();
 }
 
@@ -166,19 +171,19 @@ Complex complex_of(const ConvolutionFacets& facets, PlaneTable& planes, const st
 
 SumOfRegions sum_of_regions(ConvolutionFacets& facets, const RoundedFacets& rounded,
                             const SurvivingIntervals& intervals, const SumMembership& membership,
-                            std::span<const SaddlePoint> saddles, unsigned threads, const Monitor& monitor,
+                            std::span<const SaddlePoint> saddles, const Monitor& monitor,
                             const std::function<void(double)>& poll) {
   // Shares of the time are measured, for the bar only.
   const BoxTree tree(rounded.boxes());
   FacetPyramids pyramids(facets, rounded, tree, monitor);
-  RegionVertices found = region_vertices(facets, tree, pyramids, intervals, membership, saddles, threads, monitor,
+  RegionVertices found = region_vertices(facets, tree, pyramids, intervals, membership, saddles, monitor,
                                          [&poll](double share) { poll(0.4 * share); });
   Regions regions = joined_regions(facets, intervals, found, monitor);
-  const RegionsInside known = regions_inside(facets, pyramids, membership, found.vertices, regions, threads, monitor,
+  const RegionsInside known = regions_inside(facets, pyramids, membership, found.vertices, regions, monitor,
                                              [&poll](double share) { poll(0.4 + 0.4 * share); });
   const std::size_t items = mark_boundary(
-      facets, pyramids, membership, regions, known.inside, threads, monitor,
-      [&poll](double share) { poll(0.8 + 0.15 * share); }, found.vertices);
+      facets, pyramids, membership, regions, known.inside, monitor, [&poll](double share) { poll(0.8 + 0.15 * share); },
+      found.vertices);
   SumOfRegions result{complex_of(facets, facets.planes, found.vertices, monitor), found.points, known.tested + items};
   poll(1);
   return result;

@@ -28,7 +28,7 @@ struct SumOfRegions {
 /// the share that is done and may throw.
 SumOfRegions sum_of_regions(ConvolutionFacets& facets, const RoundedFacets& rounded,
                             const SurvivingIntervals& intervals, const SumMembership& membership,
-                            std::span<const SaddlePoint> saddles, unsigned threads, const Monitor& monitor,
+                            std::span<const SaddlePoint> saddles, const Monitor& monitor,
                             const std::function<void(double)>& poll);
 
 }  // namespace nef::minkowski

@@ -23,15 +23,18 @@ struct ConvolutionReport {
   std::size_t regions = 0;  ///< and boundary items of which only an intersection could tell whether they are in the sum
 };
 
-/// True for sets that convolution_sum takes: bounded, not empty, and in the closure of their interiors. O(n).
+/// True for sets that are bounded, not empty, and in the closure of their interiors: convolution_sum takes two of them.
+/// O(n).
 bool has_convolution(const Polyhedron& a);
 
+/// True for two bounded closed sets one of which has_convolution, while the other one may have sheets, curves and
+/// single points; convolution_sum takes these, too. O(n).
+bool have_closed_convolution(const Polyhedron& a, const Polyhedron& b);
+
 struct ConvolutionOptions {
-  /// Sets of which cells are likely to be faster are left alone: where both are convex, and where so many facets of
-  /// the convolution lie in one plane upon each other, as the caps of extrusions do, that they cost more than the
-  /// pairs of cells that there are likely to be. The report has both estimates.
+  /// Sets of which cells are likely to be faster are left alone: where both are convex, and where parts of the boundary
+  /// are missing and millions of pairs of facets of the convolution lie in one plane upon each other.
   bool only_if_fast = false;
-  unsigned threads = 1;              ///< 0: as many as the machine has; the result does not depend on it
   std::function<void(double)> poll;  ///< called with the share that is done, 0 to 1; may throw
   Monitor monitor = {};              ///< who watches; what it refers to must outlive the call
 };

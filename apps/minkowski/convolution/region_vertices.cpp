@@ -50,14 +50,12 @@ std::size_t main_axis(const FacetSegment& s) {
 class VertexFinder {
  public:
   VertexFinder(ConvolutionFacets& facets, const BoxTree& tree, FacetPyramids& pyramids,
-               const SurvivingIntervals& intervals, const SumMembership& membership, unsigned threads,
-               const Monitor& monitor)
+               const SurvivingIntervals& intervals, const SumMembership& membership, const Monitor& monitor)
       : facets_(facets),
         intervals_(intervals),
         tree_(tree),
         pyramids_(pyramids),
         membership_(membership),
-        threads_(threads),
         monitor_(monitor),
         is_closed_(facets.marks == BoundaryMarks::kAll),
         meetings_(facets.planes, facets.points) {}
@@ -87,7 +85,6 @@ class VertexFinder {
   const BoxTree& tree_;
   FacetPyramids& pyramids_;
   const SumMembership& membership_;
-  unsigned threads_;
   Monitor monitor_;
   bool is_closed_;
   bool among_passages_ = false;  // the points at hand are not ends of surviving intervals
@@ -138,7 +135,7 @@ void VertexFinder::add_point(PointId point) {
 void VertexFinder::draw_points() {
   constexpr std::size_t kChunk = 64;
   std::vector<std::optional<SphereMapBuffer>> maps(undrawn_.size());
-  parallel_for((undrawn_.size() + kChunk - 1) / kChunk, threads_, monitor_, [&](std::size_t chunk, const Monitor& own) {
+  parallel_for((undrawn_.size() + kChunk - 1) / kChunk, monitor_, [&](std::size_t chunk, const Monitor& own) {
     PyramidDrawer drawer(facets_, pyramids_, own);
     for (std::size_t i = chunk * kChunk; i < std::min(undrawn_.size(), (chunk + 1) * kChunk); ++i) {
       SphereMapBuffer map = drawer.draw(undrawn_[i].facets, undrawn_[i].point);
@@ -331,9 +328,9 @@ RegionVertices VertexFinder::finish() {
 
 RegionVertices region_vertices(ConvolutionFacets& facets, const BoxTree& tree, FacetPyramids& pyramids,
                                const SurvivingIntervals& intervals, const SumMembership& membership,
-                               std::span<const SaddlePoint> saddles, unsigned threads, const Monitor& monitor,
+                               std::span<const SaddlePoint> saddles, const Monitor& monitor,
                                const std::function<void(double)>& poll) {
-  VertexFinder finder(facets, tree, pyramids, intervals, membership, threads, monitor);
+  VertexFinder finder(facets, tree, pyramids, intervals, membership, monitor);
   finder.add_points(saddles, poll);
   return finder.finish();
 }

@@ -42,7 +42,7 @@ struct RegionVertices {
 /// whose tables get more planes and points. `poll` is called with the share that is done and may throw.
 RegionVertices region_vertices(ConvolutionFacets& facets, const BoxTree& tree, FacetPyramids& pyramids,
                                const SurvivingIntervals& intervals, const SumMembership& membership,
-                               std::span<const SaddlePoint> saddles, unsigned threads, const Monitor& monitor,
+                               std::span<const SaddlePoint> saddles, const Monitor& monitor,
                                const std::function<void(double)>& poll);
 
 }  // namespace nef::minkowski

@@ -10,8 +10,8 @@
 #include "apps/minkowski/decomposition/walls.h"
 #include "apps/minkowski/minkowski.h"
 #include "nef/base/error.h"
+#include "nef/complex/predicates_of_sets.h"
 #include "nef/polyhedron.h"
-#include "nef/query/predicates_of_sets.h"
 
 namespace nef::minkowski {
 
@@ -78,7 +78,7 @@ bool is_convex_set(const Polyhedron& a, const Monitor& monitor) {
   for (const VertexId v : c.vertex_ids()) points.push_back(c.points.rational(point_of(v)));
   if (points.empty()) return true;
   const ConvexCell hull = hull_cell(points, monitor);
-  if (!subtract(to_polyhedron(opened(hull), monitor), a, 1, monitor).is_empty()) return false;
+  if (!subtract(to_polyhedron(opened(hull), monitor), a, monitor).is_empty()) return false;
   if (hull.dimension < 2) return true;
   for (std::size_t f = 0; f < hull.mesh.face_count(); ++f) {
     const auto face = hull.mesh.face(f);
@@ -88,7 +88,7 @@ bool is_convex_set(const Polyhedron& a, const Monitor& monitor) {
       for (std::size_t i = 0; i < (hull.dimension == 3 ? face.size() : 2); ++i) {
         part.push_back(hull.mesh.vertices[face[(k + i) % face.size()]]);
       }
-      if (!is_convex_set(intersect(a, convex_hull(part, monitor), 1, monitor), monitor)) return false;
+      if (!is_convex_set(intersect(a, convex_hull(part, monitor), monitor), monitor)) return false;
     }
   }
   return true;

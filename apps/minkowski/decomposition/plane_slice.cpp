@@ -64,7 +64,8 @@ int compare_heights(const SliceSegment& a, const SliceSegment& b, const Rational
   const Estimate x = estimate(a.du, a.dh, at_double);
   const Estimate y = estimate(b.du, b.dh, at_double);
   if (std::fabs(x.value - y.value) > 1.01 * (x.error + y.error)) return x.value > y.value ? 1 : -1;
-  return cmp(a.height(at), b.height(at));
+  const int order = cmp(a.height(at), b.height(at));
+  return (order > 0) - (order < 0);
 }
 
 PlaneSlicer::PlaneSlicer(const Complex& complex, const Monitor& monitor)

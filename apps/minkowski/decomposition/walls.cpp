@@ -32,7 +32,7 @@ Polyhedron insert(const Polyhedron& a, const Polyhedron& parts, LabelId bit, con
     if ((own & kSelected) == 0 || own == kOutside) return own;
     return part != 0 ? static_cast<LabelId>(own | bit) : own;
   };
-  return overlay(a, parts, with_bit, 1, monitor);
+  return overlay(a, parts, with_bit, monitor);
 }
 
 // A missing point inside a volume gets the widest segment across the axis through it; walls over and under
@@ -180,7 +180,7 @@ Polyhedron cut_facets(const Polyhedron& a, std::span<const FacetId> facets, cons
       }
     }
   }
-  return insert(a, unite_all(cuts, 1, monitor), kCut, monitor);
+  return insert(a, unite_all(cuts, monitor), kCut, monitor);
 }
 
 }  // namespace nef::minkowski

@@ -162,7 +162,7 @@ Polyhedron component_of(const Polyhedron& a, const std::optional<Rational3>& poi
   std::vector<std::uint8_t> kept(items, 0);
   for (std::uint32_t item = 0; item < items; ++item) kept[item] = wanted[connection.component(item)];
   const auto without_others = [](LabelId own, LabelId) -> LabelId { return own == kElsewhere ? 0 : own; };
-  return overlay(Polyhedron(labelled(c, connection, kept)), Polyhedron::everything(), without_others, 1, monitor);
+  return overlay(Polyhedron(labelled(c, connection, kept)), Polyhedron::everything(), without_others, monitor);
 }
 
 }  // namespace nef::minkowski

@@ -40,9 +40,9 @@ Polyhedron unbounded_hull(const Polyhedron& a, const Monitor& monitor) {
   const SpannedSet span = hull_span(a);
   std::vector<Polyhedron> parts = {to_polyhedron(span, false, monitor)};
   for (const Polyhedron& plane : border_planes(span, monitor)) {
-    parts.push_back(hull(intersect(a, plane, 1, monitor), monitor));
+    parts.push_back(hull(intersect(a, plane, monitor), monitor));
   }
-  return unite_all(parts, 1, monitor);
+  return unite_all(parts, monitor);
 }
 
 }  // namespace
@@ -59,17 +59,17 @@ Polyhedron hull(const Polyhedron& a, const Monitor& monitor) {
   if (cell.dimension == 3 && a.is_open()) return to_polyhedron(opened(cell), monitor);
   std::vector<Polyhedron> parts = {to_polyhedron(opened(cell), monitor)};
   for (const std::vector<Rational3>& facet : facets_of(cell)) {
-    parts.push_back(hull(intersect(a, convex_hull(facet, monitor), 1, monitor), monitor));
+    parts.push_back(hull(intersect(a, convex_hull(facet, monitor), monitor), monitor));
   }
-  return unite_all(parts, 1, monitor);
+  return unite_all(parts, monitor);
 }
 
 std::optional<Rational> excess_of_hull(const Polyhedron& a, const Monitor& monitor) {
   if (!a.is_bounded() || a.is_empty()) return std::nullopt;
   const Polyhedron around = to_polyhedron(hull_cell(vertices_of(a), monitor), monitor);
   // Most sets are far from convex, which takes no exact volumes.
-  const MeasuredVolume about = approximate_volume(a, 1, monitor);
-  const MeasuredVolume about_hull = approximate_volume(around, 1, monitor);
+  const MeasuredVolume about = approximate_volume(a, monitor);
+  const MeasuredVolume about_hull = approximate_volume(around, monitor);
   const double errors = about.error + about_hull.error;
   if (about_hull.value - about.value > 2 * errors + 1e-8 * about_hull.value) return std::nullopt;
   const std::optional<Rational> own = volume(a);

@@ -45,7 +45,7 @@ Polyhedron sweep(const Polyhedron& a, std::span<const Rational3> path, const Min
   if (path.empty()) throw InputError("a sweep needs a path of at least one point");
   std::vector<Polyhedron> way = {make_point(path[0], options.monitor)};
   for (std::size_t k = 1; k < path.size(); ++k) way.push_back(make_segment(path[k - 1], path[k], options.monitor));
-  return minkowski_sum(a, unite_all(way, 1, options.monitor), options, report);
+  return minkowski_sum(a, unite_all(way, options.monitor), options, report);
 }
 
 Polyhedron no_fit_set(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
@@ -54,7 +54,7 @@ Polyhedron no_fit_set(const Polyhedron& a, const Polyhedron& b, const MinkowskiO
   const Polyhedron turned = negate(b, monitor);
   const Polyhedron contact = minkowski_sum(closure(a, monitor), closure(turned, monitor), options, report);
   const Polyhedron overlap = minkowski_sum(interior(a, monitor), interior(turned, monitor), options, report);
-  return subtract(contact, overlap, 1, monitor);
+  return subtract(contact, overlap, monitor);
 }
 
 }  // namespace nef::minkowski

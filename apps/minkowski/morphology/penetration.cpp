@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "apps/minkowski/convolution/nearest_outside.h"
 #include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/morphology.h"
+#include "apps/minkowski/sum/work_progress.h"
 #include "nef/base/error.h"
+#include "nef/base/timing/phase_timer.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/distance/distance.h"
 #include "nef/distance/intersects.h"
 #include "nef/geometry/vectors.h"
@@ -63,6 +69,30 @@ Candidate shortest(const Polyhedron& set, const Monitor& monitor) {
   return *found;
 }
 
+// The nearest point to the origin that is not in A + B.
+Candidate way_out(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options, MinkowskiReport& report) {
+  std::string why;
+  if (options.strategy == UnionStrategy::kAuto) {
+    const Stopwatch watch;
+    const PhaseTimer phase(report.seconds_union, report.predicates_union, options.monitor);
+    OutsideOptions how;
+    how.poll = WorkProgress(options);
+    how.monitor = phase.monitor();
+    std::optional<NearestOutside> found = nearest_outside(a, b, how, why);
+    report.seconds_total += watch.seconds();
+    if (found) {
+      report.convolution_facets += found->facets;
+      report.convolution_points += found->candidates;
+      report.convolution_regions += found->tested;
+      report.choices.push_back({"convolution", "facets near the origin tell how deep it lies in the sum"});
+      return {std::move(found->squared), std::move(found->point)};
+    }
+  }
+  const Polyhedron sum = minkowski_sum(a, b, options, &report);
+  if (!why.empty()) report.choices.back().why += "; the whole sum was made since " + why;
+  return shortest(sum, options.monitor);
+}
+
 }  // namespace
 
 Penetration penetration(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
@@ -74,13 +104,11 @@ Penetration penetration(const Polyhedron& a, const Polyhedron& b, const Minkowsk
   MinkowskiReport unused;
   MinkowskiReport& r = report != nullptr ? *report : unused;
   Penetration result;
-  const Rational3 origin;
-  const Polyhedron inside_a = interior(a, monitor);
-  const Polyhedron inside_b = interior(b, monitor);
-  if (intersects(inside_a, inside_b, origin, monitor)) {
-    const Polyhedron overlapping = minkowski_sum(inside_a, negate(inside_b, monitor), options, &r);
+  const Polyhedron inside_a = interior(regularize(a, monitor), monitor);
+  const Polyhedron inside_b = interior(regularize(b, monitor), monitor);
+  if (intersects(inside_a, inside_b, Rational3(), monitor)) {
+    const Candidate out = way_out(inside_a, negate(inside_b, monitor), options, r);
     result.kind = Penetration::Kind::kOverlapping;
-    const Candidate out = shortest(overlapping, monitor);
     result.translation = out.point;
     result.squared_length = out.squared_length;
     return result;

@@ -19,8 +19,8 @@ Reach reach(const Polyhedron& tool, const Polyhedron& part, const std::optional<
   result.positions = component_of(free, from, options.monitor);
   const Polyhedron swept = minkowski_sum(result.positions, closure(tool, options.monitor), options, report);
   const Polyhedron skin = boundary(part, options.monitor);
-  result.touched = intersect(skin, swept, 1, options.monitor);
-  result.untouched = subtract(skin, swept, 1, options.monitor);
+  result.touched = intersect(skin, swept, options.monitor);
+  result.untouched = subtract(skin, swept, options.monitor);
   return result;
 }
 

@@ -52,7 +52,7 @@ NearHoles near_holes(const Polyhedron& a, const Polyhedron& b, const Monitor& mo
   near = roomy(near);
   // Open with open, closed with closed: the cut must not bring marks that the sum of two solids would have to look at.
   const Polyhedron box = make_box(near[0], near[1], monitor);
-  return {intersect(a, a.is_open() ? interior(box, monitor) : box, 1, monitor),
+  return {intersect(a, a.is_open() ? interior(box, monitor) : box, monitor),
           complement(make_box(missed[0], missed[1], monitor))};
 }
 

@@ -37,17 +37,17 @@ std::vector<Polyhedron> closures(std::span<const Polyhedron> sets, const Monitor
 
 // What a thin robot must not meet with more than its border: each obstacle without its border, and their union without
 // its border, which closes the seams where obstacles touch. (A stick in the rim of a sheet is nothing in the union.)
-Polyhedron inner_of(std::span<const Polyhedron> closed, unsigned threads, const Monitor& monitor) {
-  std::vector<Polyhedron> inner{without_border(unite_all(closed, threads, monitor))};
+Polyhedron inner_of(std::span<const Polyhedron> closed, const Monitor& monitor) {
+  std::vector<Polyhedron> inner{without_border(unite_all(closed, monitor))};
   for (const Polyhedron& obstacle : closed) {
     if (!is_full_dimensional(obstacle)) inner.push_back(without_border(obstacle));
   }
-  return unite_all(inner, threads, monitor);
+  return unite_all(inner, monitor);
 }
 
 // The lower-dimensional parts of a closed robot without its border.
 Polyhedron thin_parts(const Polyhedron& closed, const Monitor& monitor) {
-  return subtract(without_border(closed), interior(closed, monitor), 1, monitor);
+  return subtract(without_border(closed), interior(closed, monitor), monitor);
 }
 
 void append(std::vector<ConvexCell>& to, std::vector<ConvexCell> from) {
@@ -108,7 +108,7 @@ WithoutCells sums_without_cells(const Polyhedron& robot, std::span<const Polyhed
 }
 
 Forbidden decompose_all(const Polyhedron& robot, std::span<const Polyhedron> obstacles,
-                        const std::vector<char>& is_done, unsigned threads, const Monitor& monitor) {
+                        const std::vector<char>& is_done, const Monitor& monitor) {
   Forbidden result;
   const Polyhedron turned = negate(robot, monitor);
   const Polyhedron robot_inside = interior(turned, monitor);
@@ -132,7 +132,7 @@ Forbidden decompose_all(const Polyhedron& robot, std::span<const Polyhedron> obs
     result.obstacles_flat = Operand(std::move(flat));
   }
   if (!is_full_dimensional(turned)) {
-    result.obstacles_inner = Operand(decompose(inner_of(closures(obstacles, monitor), threads, monitor), monitor));
+    result.obstacles_inner = Operand(decompose(inner_of(closures(obstacles, monitor), monitor), monitor));
     result.robot_thin = Operand(decompose(thin_parts(closure(turned, monitor), monitor), monitor));
   }
   return result;
@@ -140,7 +140,7 @@ Forbidden decompose_all(const Polyhedron& robot, std::span<const Polyhedron> obs
 
 Polyhedron outside_of(const Polyhedron& forbidden, const std::optional<std::array<Rational3, 2>>& box,
                       const Monitor& monitor) {
-  return box ? subtract(make_box((*box)[0], (*box)[1], monitor), forbidden, 1, monitor) : complement(forbidden);
+  return box ? subtract(make_box((*box)[0], (*box)[1], monitor), forbidden, monitor) : complement(forbidden);
 }
 
 // The definition, step by step.
@@ -149,11 +149,10 @@ Polyhedron forbidden_of_unbounded(const Polyhedron& robot, std::span<const Polyh
   const Monitor& monitor = options.monitor;
   const std::vector<Polyhedron> closed = closures(obstacles, monitor);
   const Polyhedron turned = closure(negate(robot, monitor), monitor);
-  Polyhedron entered =
-      minkowski_sum(unite_all(closed, options.threads, monitor), interior(turned, monitor), options, &report);
+  Polyhedron entered = minkowski_sum(unite_all(closed, monitor), interior(turned, monitor), options, &report);
   if (is_full_dimensional(turned)) return entered;
-  const Polyhedron inner = inner_of(closed, options.threads, monitor);
-  return unite(entered, minkowski_sum(inner, thin_parts(turned, monitor), options, &report), 1, monitor);
+  const Polyhedron inner = inner_of(closed, monitor);
+  return unite(entered, minkowski_sum(inner, thin_parts(turned, monitor), options, &report), monitor);
 }
 
 }  // namespace
@@ -173,7 +172,7 @@ Polyhedron configuration_space(const Polyhedron& robot, std::span<const Polyhedr
   Forbidden parts;
   {
     const PhaseTimer phase(r.seconds_decomposition, r.predicates_decomposition, options.monitor);
-    parts = decompose_all(robot, obstacles, without_cells.is_done, options.threads, phase.monitor());
+    parts = decompose_all(robot, obstacles, without_cells.is_done, phase.monitor());
   }
   r.cells_a += parts.obstacles_open.size() + parts.obstacles_flat.size() + parts.obstacles_inner.size();
   r.cells_b += std::max(parts.robot_open.size(), parts.robot_marked.size()) + parts.robot_thin.size();
@@ -189,7 +188,7 @@ Polyhedron configuration_space(const Polyhedron& robot, std::span<const Polyhedr
   Polyhedron free;
   {
     const PhaseTimer phase(r.seconds_union, r.predicates_union, options.monitor);
-    free = outside_of(unite_all(without_cells.sums, options.threads, phase.monitor()), box, phase.monitor());
+    free = outside_of(unite_all(without_cells.sums, phase.monitor()), box, phase.monitor());
   }
   r.seconds_total += watch.seconds();
   return free;

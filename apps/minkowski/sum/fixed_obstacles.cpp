@@ -35,7 +35,7 @@ std::vector<ConvexCell> inside_of(const std::vector<ConvexCell>& open_solids, co
   if (open_solids.size() < 2) return open_solids;
   std::vector<Polyhedron> parts;
   for (const ConvexCell& cell : open_solids) parts.push_back(to_polyhedron(closed(cell), monitor));
-  return decompose(interior(unite_all(parts, 1, monitor), monitor), monitor);
+  return decompose(interior(unite_all(parts, monitor), monitor), monitor);
 }
 
 }  // namespace
@@ -57,7 +57,7 @@ FixedObstacles::FixedObstacles(std::span<const Polyhedron> obstacles,
       solid.push_back(may_touch ? std::move(cell) : closed(std::move(cell)));
     }
     if (all.is_regular()) continue;
-    for (ConvexCell& cell : decompose(subtract(all, thick, 1, monitor), monitor)) {
+    for (ConvexCell& cell : decompose(subtract(all, thick, monitor), monitor)) {
       flat_boxes_.push_back(box_of(cell.mesh));
       flat_.push_back(closed(std::move(cell)));
     }
@@ -86,7 +86,7 @@ bool FixedObstacles::matters(const Box& a, const Box& b) const {
 
 Polyhedron FixedObstacles::free_positions(std::span<const Mesh> robot, const Monitor& monitor) const {
   const auto poll = [&monitor](double) { monitor.check_interruption(); };
-  UnionBuilder forbidden(1, 0, poll, monitor);
+  UnionBuilder forbidden(0, poll, monitor);
   const Operand pieces(reflected(robot, may_touch_));
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Box box = box_of(pieces.cell(i).mesh);
@@ -108,7 +108,7 @@ Polyhedron FixedObstacles::free_positions(std::span<const Mesh> robot, const Mon
       }
     }
   }
-  return subtract(all_, forbidden.finish(), 1, monitor);
+  return subtract(all_, forbidden.finish(), monitor);
 }
 
 }  // namespace nef::minkowski

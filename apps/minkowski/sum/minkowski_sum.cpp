@@ -46,7 +46,7 @@ Operands decompose_both(const Polyhedron& a, const Polyhedron& b, const Minkowsk
   const PhaseTimer phase(report.seconds_decomposition, report.predicates_decomposition, options.monitor);
   const bool only_open = (a.is_open() || b.is_open()) && is_full_dimensional(a) && is_full_dimensional(b);
   Operands result;
-  parallel_for(2, options.threads, phase.monitor(), [&](std::size_t k, const Monitor& own) {
+  parallel_for(2, phase.monitor(), [&](std::size_t k, const Monitor& own) {
     const Polyhedron& operand = k == 0 ? a : b;
     (k == 0 ? result.a : result.b) = Operand(only_open ? decompose_open(operand, own) : decompose(operand, own));
   });
@@ -58,6 +58,7 @@ Operands decompose_both(const Polyhedron& a, const Polyhedron& b, const Minkowsk
 Polyhedron bounded_sum(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
                        MinkowskiReport& report) {
   std::string why;
+  if (std::optional<Polyhedron> sum = flat_sum_by_convolution(a, b, options, report)) return *std::move(sum);
   if (std::optional<Polyhedron> sum = sum_by_convolution(a, b, options, report, why)) {
     report.choices.push_back({"convolution", std::move(why)});
     return *std::move(sum);
@@ -78,7 +79,7 @@ Polyhedron cobounded_sum(const Polyhedron& a, const Polyhedron& b, const Minkows
   const NearHoles near = near_holes(a, b, options.monitor);
   Polyhedron sum = bounded_sum(near.part, b, options, report);
   report.choices.back().why += "; within a box around the bounded complement of an operand";
-  return unite(sum, near.beyond, 1, options.monitor);
+  return unite(sum, near.beyond, options.monitor);
 }
 
 Polyhedron any_sum(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options, MinkowskiReport& report) {

@@ -26,7 +26,7 @@ std::vector<ConvexCell> sums_of_pairs(const Product& product, std::size_t first,
                                       const MinkowskiOptions& options, MinkowskiReport& report) {
   const PhaseTimer phase(report.seconds_convex_sums, report.predicates_convex_sums, options.monitor);
   std::vector<ConvexCell> sums(count);
-  parallel_for(count, options.threads, phase.monitor(),
+  parallel_for(count, phase.monitor(),
                [&](std::size_t k, const Monitor& own) { sums[k] = sum_of_pair(product, first + k, own); });
   return sums;
 }
@@ -59,7 +59,7 @@ Polyhedron union_of_pair_sums(std::span<const Product> products, const Minkowski
   };
   double seconds = 0;  // of the sums of pairs, too; seconds_union gets those of the union only
   const PhaseTimer union_phase(seconds, report.predicates_union, options.monitor);
-  UnionBuilder builder(options.threads, all, poll_union, union_phase.monitor());
+  UnionBuilder builder(all, poll_union, union_phase.monitor());
   for (const Product& product : products) {
     const std::size_t pairs = product.a.size() * product.b.size();
     for (std::size_t first = 0; first < pairs; first += kBlock) {

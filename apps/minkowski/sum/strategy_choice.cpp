@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "apps/minkowski/convolution/convolution_sum.h"
+#include "apps/minkowski/planar/flat_sets.h"
 #include "apps/minkowski/sum/work_progress.h"
 #include "nef/base/timing/phase_timer.h"
 #include "nef/polyhedron.h"
@@ -30,13 +31,12 @@ std::optional<Polyhedron> sum_by_convolution(const Polyhedron& a, const Polyhedr
   if (!insist && options.strategy != UnionStrategy::kAuto) return std::nullopt;
   const PhaseTimer phase(report.seconds_union, report.predicates_union, options.monitor);
   for (const Polyhedron* set : {&a, &b}) {
-    if (has_convolution(*set)) continue;
-    why = std::string(set == &a ? "A" : "B") + " has parts that are not solid";
+    if (has_convolution(*set) || have_closed_convolution(a, b)) continue;
+    why = std::string(set == &a ? "A" : "B") + " has parts that are not solid; then both must be closed, and one solid";
     return std::nullopt;
   }
   ConvolutionOptions how;
   how.only_if_fast = !insist;
-  how.threads = options.threads;
   how.poll = WorkProgress(options);
   how.monitor = phase.monitor();
   ConvolutionReport counts;
@@ -46,6 +46,15 @@ std::optional<Polyhedron> sum_by_convolution(const Polyhedron& a, const Polyhedr
   report.convolution_intervals += counts.intervals;
   report.convolution_points += counts.points;
   report.convolution_regions += counts.regions;
+  return sum;
+}
+
+std::optional<Polyhedron> flat_sum_by_convolution(const Polyhedron& a, const Polyhedron& b,
+                                                  const MinkowskiOptions& options, MinkowskiReport& report) {
+  if (options.strategy == UnionStrategy::kQueue) return std::nullopt;
+  const PhaseTimer phase(report.seconds_union, report.predicates_union, options.monitor);
+  std::optional<Polyhedron> sum = sum_of_flat_sets(a, b, phase.monitor());
+  if (sum) report.choices.push_back({"convolution", "both operands are closed polygons in parallel planes"});
   return sum;
 }
 

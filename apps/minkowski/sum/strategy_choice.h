@@ -17,6 +17,11 @@ namespace nef::minkowski {
 std::optional<Polyhedron> sum_by_convolution(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
                                              MinkowskiReport& report, std::string& why);
 
+/// The same for two sets of closed polygons in parallel planes, whose sum is a planar one, and with its entry in the
+/// report.
+std::optional<Polyhedron> flat_sum_by_convolution(const Polyhedron& a, const Polyhedron& b,
+                                                  const MinkowskiOptions& options, MinkowskiReport& report);
+
 /// union_of_pair_sums with an entry in the report about what united them, and why there were cells.
 Polyhedron union_of_pair_sums_for(std::string why, std::span<const Product> products, const MinkowskiOptions& options,
                                   MinkowskiReport& report);

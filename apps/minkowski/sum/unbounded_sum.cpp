@@ -70,7 +70,7 @@ Polyhedron cut_into_convex_items(const Polyhedron& a, const Monitor& monitor) {
     const auto with_wall = [](LabelId own, LabelId wall) -> LabelId {
       return is_selected(own) && wall != 0 ? static_cast<LabelId>(own | kWall) : own;
     };
-    result = overlay(result, unite_all(walls, 1, monitor), with_wall, 1, monitor);
+    result = overlay(result, unite_all(walls, monitor), with_wall, monitor);
   }
 }
 
@@ -256,7 +256,7 @@ Polyhedron unbounded_sum(const Polyhedron& a, const Polyhedron& b, const Minkows
     }
   }
   const PhaseTimer phase(report.seconds_union, report.predicates_union, options.monitor);
-  Polyhedron result = unite_all(sums, options.threads, phase.monitor());
+  Polyhedron result = unite_all(sums, phase.monitor());
   progress(1);
   return result;
 }

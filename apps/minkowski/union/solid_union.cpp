@@ -36,7 +36,7 @@ class SolidUnion {
         vertices_(cells, rounded, boxes_, options.monitor),
         exact_(vertices_.exact()),
         cutter_(rounded, exact_),
-        visible_(visible_faces(cells, rounded, boxes_, exact_, options.threads, options.monitor)),
+        visible_(visible_faces(cells, rounded, boxes_, exact_, options.monitor)),
         tree_(visible_.boxes, BoxSplit::kMedians),
         budget_(options.budget),
         poll_(options.poll) {
@@ -290,10 +290,7 @@ class SolidUnion {
     const bool is_end =
         (at.low <= 0 && vertices_.is_on(s.from_point, h)) || (at.high >= 1 && vertices_.is_on(s.to_point, h));
     if (!is_left || is_end) return;
-    const double t = (at.low + at.high) / 2;
-    Double3 guess{};
-    for (std::size_t i = 0; i < 3; ++i) guess[i] = s.from[i] + t * (s.to[i] - s.from[i]);
-    vertices_.add_meeting(s.f, s.g, h, guess);
+    vertices_.add_meeting(s.f, s.g, h, s.at((at.low + at.high) / 2));
   }
 
   std::span<const ConvexCell> cells_;
@@ -350,17 +347,15 @@ std::optional<Polyhedron> try_unite_solids(std::span<const ConvexCell> cells, co
   return result;
 }
 
-Polyhedron unite_solids(std::span<const ConvexCell> cells, std::size_t* dropped, unsigned threads,
-                        const Monitor& monitor) {
+Polyhedron unite_solids(std::span<const ConvexCell> cells, std::size_t* dropped, const Monitor& monitor) {
   SolidUnionOptions options;
-  options.threads = threads;
   options.monitor = monitor;
   std::optional<Polyhedron> result = try_unite_solids(cells, options, dropped);
   if (result) return *std::move(result);
   std::vector<Polyhedron> sets;
   sets.reserve(cells.size());
   for (const ConvexCell& cell : cells) sets.push_back(to_polyhedron(cell, monitor));
-  return unite_all(sets, threads, monitor);
+  return unite_all(sets, monitor);
 }
 
 }  // namespace nef::minkowski

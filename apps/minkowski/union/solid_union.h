@@ -19,7 +19,6 @@ namespace nef::minkowski {
 
 /// How a union may be made, and what came of it.
 struct SolidUnionOptions {
-  unsigned threads = 1;  ///< of filters; 0: as many as the machine has; the result does not depend on it
   /// The union is given up when it has taken so many evaluations of a plane's form (a few nanoseconds each). Counted,
   /// not timed: the same for every run.
   std::uint64_t budget = std::numeric_limits<std::uint64_t>::max();
@@ -37,7 +36,6 @@ std::optional<Polyhedron> try_unite_solids(std::span<const ConvexCell> cells, co
                                            std::size_t* dropped = nullptr);
 
 /// The same without a budget; of other sizes by unions of two.
-Polyhedron unite_solids(std::span<const ConvexCell> cells, std::size_t* dropped = nullptr, unsigned threads = 1,
-                        const Monitor& monitor = {});
+Polyhedron unite_solids(std::span<const ConvexCell> cells, std::size_t* dropped = nullptr, const Monitor& monitor = {});
 
 }  // namespace nef::minkowski

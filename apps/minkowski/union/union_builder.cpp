@@ -29,12 +29,8 @@ constexpr std::uint64_t kQueueWorkOfVertex = 4000;
 
 }  // namespace
 
-UnionBuilder::UnionBuilder(unsigned threads, std::size_t expected, std::function<void(double)> poll,
-                           const Monitor& monitor)
-    : threads_(threads),
-      poll_(std::move(poll)),
-      monitor_(monitor),
-      expected_(std::max(1.0, static_cast<double>(expected))) {}
+UnionBuilder::UnionBuilder(std::size_t expected, std::function<void(double)> poll, const Monitor& monitor)
+    : poll_(std::move(poll)), monitor_(monitor), expected_(std::max(1.0, static_cast<double>(expected))) {}
 
 void UnionBuilder::settle(double pieces) {
   settled_ += pieces;
@@ -71,7 +67,7 @@ void UnionBuilder::add_to_group(const ConvexCell& cell) {
 void UnionBuilder::flush_group() {
   if (group_.empty()) return;
   poll();
-  add_queued(unite_all(group_, threads_, monitor_));
+  add_queued(unite_all(group_, monitor_));
   settle(static_cast<double>(group_.size()));
   group_.clear();
   group_vertices_ = 0;
@@ -82,7 +78,7 @@ void UnionBuilder::flush_group() {
 void UnionBuilder::add_queued(Polyhedron piece) {
   std::size_t level = 0;
   for (; level < levels_.size() && !levels_[level].is_empty(); ++level) {
-    piece = unite(levels_[level], piece, 1, monitor_);
+    piece = unite(levels_[level], piece, monitor_);
     levels_[level] = Polyhedron();
   }
   if (level == levels_.size()) levels_.emplace_back();
@@ -101,7 +97,7 @@ void UnionBuilder::flush() {
     }
     dropped_ += static_cast<std::size_t>(batch_.end() - first_flat) - pieces.size();
     two_by_two_ += pieces.size();
-    add_queued(unite_all(pieces, threads_, monitor_));
+    add_queued(unite_all(pieces, monitor_));
     settle(static_cast<double>(batch_.end() - first_flat));
     batch_.erase(first_flat, batch_.end());
   }
@@ -112,7 +108,6 @@ void UnionBuilder::flush() {
 
 void UnionBuilder::unite_batch_of_solids() {
   SolidUnionOptions options;
-  options.threads = threads_;
   options.monitor = monitor_;
   const auto all = static_cast<double>(batch_.size());
   options.poll = [this, all](double share) { poll(share * all); };
@@ -131,7 +126,7 @@ void UnionBuilder::unite_batch_of_solids() {
 Polyhedron UnionBuilder::finish() {
   flush();
   flush_group();
-  return unite_all(levels_, threads_, monitor_);
+  return unite_all(levels_, monitor_);
 }
 
 }  // namespace nef::minkowski

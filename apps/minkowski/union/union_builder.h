@@ -23,8 +23,7 @@ class UnionBuilder {
  public:
   /// Adds up to `expected` pieces. `poll`, if given, is called now and then while they are united, with the share of
   /// that work that is done, which is an estimate. It may throw.
-  explicit UnionBuilder(unsigned threads = 1, std::size_t expected = 0, std::function<void(double)> poll = {},
-                        const Monitor& monitor = {});
+  explicit UnionBuilder(std::size_t expected = 0, std::function<void(double)> poll = {}, const Monitor& monitor = {});
 
   void add(ConvexCell cell);
   /// The union of everything added. Call once.
@@ -46,7 +45,6 @@ class UnionBuilder {
   void flush();
   void unite_batch_of_solids();
 
-  unsigned threads_;
   std::function<void(double)> poll_;
   Monitor monitor_;
   double expected_ = 1;             // pieces

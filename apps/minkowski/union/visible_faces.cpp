@@ -25,10 +25,10 @@ std::vector<Double3> ring_of(std::uint32_t face, const RoundedCells& rounded, co
 
 // Calls visit(cell, filter of its own) for all cells, on several threads.
 template <typename Visit>
-void for_each_cell(const RoundedCells& rounded, const FaceRemains& prototype, unsigned threads, const Monitor& monitor,
+void for_each_cell(const RoundedCells& rounded, const FaceRemains& prototype, const Monitor& monitor,
                    const Visit& visit) {
   constexpr std::size_t kChunk = 64;
-  parallel_for((rounded.size() + kChunk - 1) / kChunk, threads, monitor, [&](std::size_t chunk, const Monitor&) {
+  parallel_for((rounded.size() + kChunk - 1) / kChunk, monitor, [&](std::size_t chunk, const Monitor&) {
     FaceRemains remains(prototype);
     const std::size_t end = std::min(rounded.size(), (chunk + 1) * kChunk);
     for (std::size_t cell = chunk * kChunk; cell < end; ++cell) visit(static_cast<std::uint32_t>(cell), remains);
@@ -78,15 +78,15 @@ std::vector<Rest> rests_of(std::uint32_t cell, const RoundedCells& rounded, cons
 }  // namespace
 
 VisibleFaces visible_faces(std::span<const ConvexCell> cells, const RoundedCells& rounded, const BoxTree& boxes,
-                           ExactCells& exact, unsigned threads, const Monitor& monitor) {
+                           ExactCells& exact, const Monitor& monitor) {
   find_shared_planes(rounded, exact);
   VisibleFaces result;
   result.planes = PlanesOfCells(rounded, exact);
   const FlushFaces flush(cells, rounded, exact, result.planes);
   std::vector<std::vector<Rest>> rests(cells.size());
-  for_each_cell(
-      rounded, FaceRemains(rounded, flush, boxes), threads, monitor,
-      [&](std::uint32_t cell, FaceRemains& remains) { rests[cell] = rests_of(cell, rounded, exact, remains); });
+  for_each_cell(rounded, FaceRemains(rounded, flush, boxes), monitor, [&](std::uint32_t cell, FaceRemains& remains) {
+    rests[cell] = rests_of(cell, rounded, exact, remains);
+  });
   result.is_visible.assign(rounded.face_count(), 0);
   for (const std::vector<Rest>& faces : rests) {
     if (faces.empty()) ++result.hidden_cells;

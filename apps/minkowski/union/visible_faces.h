@@ -24,10 +24,10 @@ struct VisibleFaces {
 
 /// Finds them by subtracting other cells from each face, with regard to faces that are in one plane (see coplanar.h),
 /// so that the caps of a thousand prisms count as one polygon and the walls between them are hidden. Filters in
-/// doubles, on the safe side; that faces are in one plane is exact. `boxes` is a tree over the cells' boxes. Runs on up
-/// to `threads` threads. O(n k) for n faces of cells each of which k others overlap, and less where cells hide each
+/// doubles, on the safe side; that faces are in one plane is exact. `boxes` is a tree over the cells' boxes. Runs on
+/// the threads of `monitor`. O(n k) for n faces of cells each of which k others overlap, and less where cells hide each
 /// other.
 VisibleFaces visible_faces(std::span<const ConvexCell> cells, const RoundedCells& rounded, const BoxTree& boxes,
-                           ExactCells& exact, unsigned threads, const Monitor& monitor);
+                           ExactCells& exact, const Monitor& monitor);
 
 }  // namespace nef::minkowski

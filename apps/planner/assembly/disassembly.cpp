@@ -241,7 +241,7 @@ class TakingApart {
     for (const std::size_t a : moving) {
       for (const std::size_t b : stay) sets.push_back(free_of_pair(a, b));
     }
-    return intersect_all(sets, 1, monitor_);
+    return intersect_all(sets, monitor_);
   }
 
   // True if there is a way from where the parts are to infinity.

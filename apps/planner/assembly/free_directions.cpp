@@ -15,12 +15,12 @@ FreeDirections free_directions(const Assembly& assembly, std::size_t part, const
   for (const std::vector<Rational3>& normals : Blocking(assembly.parts, monitor).blocked_cones(part)) {
     std::vector<Polyhedron> sides;
     for (const Rational3& n : normals)
-      sides.push_back(intersect(cube, make_halfspace(-n[0], -n[1], -n[2], Rational(0), true, monitor), 1, monitor));
-    allowed.push_back(unite_all(sides, 1, monitor));
+      sides.push_back(intersect(cube, make_halfspace(-n[0], -n[1], -n[2], Rational(0), true, monitor), monitor));
+    allowed.push_back(unite_all(sides, monitor));
   }
   FreeDirections result;
   result.everything = allowed.size() == 1;
-  result.cone = intersect_all(allowed, 1, monitor);
+  result.cone = intersect_all(allowed, monitor);
   const Location apex = locate(result.cone, Rational3{});
   if (result.everything || apex.kind == Location::Kind::kVolume) {
     result.dimension = 3;

@@ -4,14 +4,14 @@
 #include <filesystem>
 
 #include "apps/planner/scene/shapes.h"
+#include "apps/program/exact_json.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
-#include "nef/program/exact_json.h"
 
 namespace nef::planner {
 
 Assembly parse_assembly(const std::string& text, const std::string& folder, const std::string& name,
-                        const Monitor& monitor) {
+                        const MeshOptions& meshes) {
   const nlohmann::json root = parse_exact_json(text, name);
   if (!root.is_object() || !root.contains("parts") || !root["parts"].is_object()) {
     throw InputError(name + R"(: an assembly is {"parts": {"name": file or expression, ...}})");
@@ -26,7 +26,8 @@ Assembly parse_assembly(const std::string& text, const std::string& folder, cons
     if (!item.value().is_string()) throw InputError(what + ": expected a file name or an expression in quotes");
     Polyhedron part;
     try {
-      part = closure(shape_of_text(item.value().get<std::string>(), folder, &assembly.messages, monitor), monitor);
+      part =
+          closure(shape_of_text(item.value().get<std::string>(), folder, meshes, &assembly.messages), meshes.monitor);
     } catch (const InputError& error) {
       throw InputError(what + ": " + error.what());
     }
@@ -40,8 +41,8 @@ Assembly parse_assembly(const std::string& text, const std::string& folder, cons
   return assembly;
 }
 
-Assembly read_assembly(const std::string& path, const Monitor& monitor) {
-  return parse_assembly(read_file(path), std::filesystem::path(path).parent_path().string(), path, monitor);
+Assembly read_assembly(const std::string& path, const MeshOptions& meshes) {
+  return parse_assembly(read_file(path), std::filesystem::path(path).parent_path().string(), path, meshes);
 }
 
 }  // namespace nef::planner

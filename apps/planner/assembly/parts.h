@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "nef/base/monitor.h"
+#include "apps/planner/scene/scene.h"
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
 
@@ -22,10 +22,10 @@ struct Assembly {
 
 /// Reads {"parts": {"name": SHAPE, ...}}, SHAPE being a file (relative to this one) or an expression, as in scenes
 /// (scene.h). The parts are in the order of their names. Throws InputError unless each is a bounded solid.
-Assembly read_assembly(const std::string& path, const Monitor& monitor = {});
+Assembly read_assembly(const std::string& path, const MeshOptions& meshes = scene_meshes());
 
 /// The same from text; `folder` is where file names begin.
 Assembly parse_assembly(const std::string& text, const std::string& folder, const std::string& name,
-                        const Monitor& monitor = {});
+                        const MeshOptions& meshes = scene_meshes());
 
 }  // namespace nef::planner

@@ -20,7 +20,7 @@ Polyhedron around_ball(const Rational& radius, const Monitor& monitor) {
       sides.push_back(make_halfspace(n[0], n[1], n[2], -3 * radius, true, monitor));
     }
   }
-  return intersect_all(sides, 1, monitor);
+  return intersect_all(sides, monitor);
 }
 
 void keep_clear(Scene& scene, const Rational& distance, const Monitor& monitor) {

@@ -1,8 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Options are declared in groups, and a table says which of them do not go together. What depends on the scene (a robot
+// that turns, a path with rotations) is checked by the same functions once the scene is known.
 #include "apps/planner/command/arguments.h"
 
+#include <algorithm>
+#include <iostream>
+#include <string_view>
+
+#include "apps/planner/ompl/ompl_planners.h"
+#include "apps/program/common_options.h"
 #include "nef/base/error.h"
-#include "nef/program/common_options.h"
+#include "nef/io/file_bytes.h"
 
 namespace nef::planner {
 namespace {
@@ -14,11 +23,17 @@ A scene is JSON: {"robot": SHAPE, "obstacles": [SHAPE, ...], "start": [x, y, z],
 the path of a mesh or nef file, or an expression such as "box(0,0,0, 9,3,3) - box(4,1,1, 5,2,2)". Numbers are exact:
 0.1 is one tenth, "1/3" a third. OMPL.app's .cfg files are read too.
 
-An assembly is {"parts": {"name": SHAPE, ...}}, each part at its assembled place.
+An assembly is {"parts": {"name": SHAPE, ...}}, each part at its assembled place. A mechanism is {"moving": SHAPE,
+"fixed": [SHAPE, ...], "joint": JOINT}, JOINT one of
+{"type": "hinge", "axis": "z", "point": [x, y, z], "range": [0, 360]},
+{"type": "slider", "direction": [0, 0, 1], "range": [0, 5]} and
+{"type": "screw", "axis": "z", "pitch": 1, "range": [0, 720]}.
 
 Exit codes: 0 a path; 1 proved that there is none (with --path: the given path leaves free space);
-2 bad input or usage; 3 start or goal not free; 4 (--ompl only) no answer within the time; 5 (rotation only) undecided.
+2 bad input or usage; 3 start or goal not free; 4 (--ompl only) no answer within the time; 5 undecided
+(--time, --max-cells).
 With --assembly: 0 a sequence, 1 inseparable, 3 parts overlap, 5 undecided within the --time.
+With --range: 0, 5 undecided.
 --manifold, --recenter and --lenient are for the meshes that --free-directions writes; .glb scenes and animations are always
 placed about their middle.
 --tight without -o only lists: it exits with 0 whatever the answer. --queries exits with the largest code of all.
@@ -32,6 +47,7 @@ Examples:
   planner scene.json --path given.path --proof given.proof
   planner scene.json --check-proof given.proof
   planner --assembly parts.json --page apart.html
+  planner --range mechanism.json --json
   planner scene.json --widest --precision 1/100
   planner scene.json --keep-clear 0.1 --speed 2 --acceleration 5 -o path.csv
   planner scene.json --ompl RRTConnect --time 5
@@ -40,7 +56,7 @@ Examples:
 void declare_ompl(CLI::App& app, Arguments& a) {
   app.add_option("--ompl", a.ompl, "Use this planner of OMPL on the exact free space");
   app.add_option("--time", a.seconds,
-                 "Seconds for each run of an OMPL planner, for a robot that turns, or for an assembly")
+                 "Seconds after which the answer is undecided; with --ompl or --benchmark, for each run of a planner")
       ->check(CLI::Range(1e-3, 1e6))
       ->each([&a](const std::string&) { a.time_given = true; });
   app.add_option("--runs", a.runs, "Runs of each OMPL planner")->check(CLI::Range(1U, 1000000U));
@@ -60,21 +76,115 @@ void declare_clearance(CLI::App& app, Arguments& a) {
       ->check(nef::positive());
 }
 
+// What the first option excludes.
+struct Exclusion {
+  const char* option;
+  std::vector<const char*> others;
+};
+
+constexpr std::string_view kScene = "scene";
+
+std::vector<Exclusion> exclusions() {
+  return {
+      {"--range",
+       {kScene.data(), "--assembly", "--path", "--queries", "--page", "--tight", "--widest", "--widest-box", "--proof",
+        "--check-proof"}},
+      {"--assembly",
+       {kScene.data(), "--start",     "--goal",   "--contact",       "--tight",      "--path",  "--queries",
+        "--ompl",      "--benchmark", "--widest", "--widest-box",    "--keep-clear", "--speed", "--prefer",
+        "--clearance", "--raw",       "--quick",  "--min-dimension", "--se3",        "--proof", "--check-proof"}},
+      {"--free-directions", {"--digits"}},
+      {"--benchmark", {"--ompl"}},
+      {"--path", {"--ompl", "--benchmark"}},
+      {"--queries", {"--path", "--page", "--ompl", "--benchmark"}},
+      {"--widest", {"--widest-box", "--tight", "--path", "--queries", "--ompl", "--benchmark", "--check-proof"}},
+      {"--widest-box", {"--tight", "--path", "--queries", "--ompl", "--benchmark", "--check-proof"}},
+      {"--proof", {"--queries", "--benchmark", "--check-proof"}},
+  };
+}
+
+std::string dotted(const std::vector<const char*>& extensions) {
+  std::string text;
+  for (std::size_t i = 0; i < extensions.size(); ++i) {
+    text += i == 0 ? "." : i + 1 == extensions.size() ? " or ." : ", .";
+    text += extensions[i];
+  }
+  return text;
+}
+
+// Files of answers other than cones of directions, which are sets.
+void check_outputs(const Arguments& a) {
+  if (!a.range.empty()) require_extensions(a, "with --range", {"json"});
+  if (!a.queries.empty()) require_extensions(a, "with --queries", {"json"});
+  if (!a.assembly.empty()) require_extensions(a, "with --assembly", {"json", "html", "glb"});
+  for (const std::string& file : a.outputs) {
+    if (lower_extension(file) == "csv" && a.limits.speed <= 0) {
+      throw InputError("-o " + file + ": time stamps want a --speed");
+    }
+  }
+  if (a.session.mesh_file.manifold || a.session.mesh_file.recenter || a.session.mesh_file.lenient) {
+    throw InputError("--manifold, --recenter and --lenient are for the meshes that --free-directions writes");
+  }
+}
+
 }  // namespace
 
-void check_mesh_flags(const Arguments& a) {
-  if (!a.free_directions.empty()) return;
-  if (!a.mesh_file.manifold && !a.mesh_file.recenter && !a.mesh_file.lenient) return;
-  throw InputError("--manifold, --recenter and --lenient are for the meshes that --free-directions writes");
+void exclude(const Arguments& a, const std::string& what, const std::vector<const char*>& options) {
+  for (const char* option : options) {
+    if (a.app->count(option) > 0) throw InputError(what + " excludes " + (option == kScene ? "a scene" : option));
+  }
+}
+
+void require_extensions(const Arguments& a, const std::string& where, const std::vector<const char*>& extensions) {
+  for (const std::string& file : a.outputs) {
+    const std::string extension = lower_extension(file);
+    if (std::find(extensions.begin(), extensions.end(), extension) == extensions.end()) {
+      throw InputError("-o " + file + ": " + where + " the extension must be " + dotted(extensions));
+    }
+  }
+}
+
+void check_usage(const Arguments& a) {
+  for (const auto& [option, others] : exclusions()) {
+    if (a.app->count(option) > 0) exclude(a, option, others);
+  }
+  if (a.range.empty() && a.assembly.empty() && a.scene.empty()) {
+    throw InputError("scene is required: planner SCENE, or planner --assembly PARTS.json");
+  }
+  if (!a.page.empty() && lower_extension(a.page) != "html") {
+    throw InputError("--page " + a.page + ": the extension must be .html");
+  }
+  if (a.limits.acceleration > 0 && a.limits.speed <= 0) throw InputError("--acceleration wants a --speed, too");
+  if (!a.free_directions.empty()) {
+    if (a.assembly.empty()) throw InputError("--free-directions asks about a part of an --assembly");
+  } else {
+    check_outputs(a);
+  }
+  for (const std::string& name : a.planners) require_ompl_planner(name);
+  if (!a.ompl.empty()) require_ompl_planner(a.ompl);
+}
+
+void print_result(const Arguments& a, const std::function<std::string()>& report,
+                  const std::function<void()>& for_people) {
+  a.session.hide_phase();
+  if (a.session.json) {
+    std::cout << report();
+  } else if (!a.session.quiet) {
+    for_people();
+  }
 }
 
 void declare(CLI::App& app, Arguments& a) {
+  a.app = &app;
   app.add_option("scene", a.scene, "Scene (.json, or OMPL.app .cfg)")->type_name("FILE");
   app.add_option("--assembly", a.assembly, "Take an assembly (.json) apart by translations, or prove that it is stuck")
       ->type_name("FILE");
   app.add_option("--free-directions", a.free_directions,
                  "With --assembly: the exact cone of directions in which this part can begin to move")
       ->type_name("PART");
+  app.add_option("--range", a.range,
+                 "The angles or strokes of a mechanism (.json) with one moving part that are free, touching, colliding")
+      ->type_name("FILE");
   app.add_option("-o,--output", a.outputs,
                  "Write the answer: .json report, .path (OMPL matrix), .glb (animated glTF), .csv (time stamps), else "
                  "text; may be repeated")
@@ -112,9 +222,11 @@ void declare(CLI::App& app, Arguments& a) {
       ->type_name("FILE");
   declare_clearance(app, a);
   declare_ompl(app, a);
-  add_manifold_option(app, a.mesh_file.manifold);
-  add_mesh_file_options(app, a.mesh_file);
-  add_run_options(app, a.json, a.quiet, a.threads);
+  add_crossings_option(app, a.session.mesh.crossings);
+  add_close_option(app, a.session.mesh.close_percent);
+  add_manifold_option(app, a.session.mesh_file.manifold);
+  add_mesh_file_options(app, a.session.mesh_file);
+  add_run_flags(&app, a.session);
   app.footer(kFooter);
 }
 

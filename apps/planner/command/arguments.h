@@ -4,20 +4,26 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "apps/planner/clearance/timing.h"
 #include "apps/planner/path/path.h"
-#include "nef/program/common_options.h"
+#include "apps/program/session.h"
 
 namespace nef::planner {
 
-/// The command line. Options are described by `planner --help`.
+/// The command line: what all programs have in `session`, and the rest. Options are described by `planner --help`.
 struct Arguments {
+  explicit Arguments(Session& its_session) : session(its_session) {}
+
+  Session& session;
+  const CLI::App* app = nullptr;  ///< what was parsed
   std::string scene;
   std::string assembly;
   std::string free_directions;
+  std::string range;
   std::vector<std::string> outputs;
   std::string page;
   std::string start;
@@ -41,18 +47,26 @@ struct Arguments {
   bool time_given = false;
   std::size_t max_cells = 2000;
   unsigned runs = 1;
-  unsigned threads = 0;
   bool tight = false;
-  bool json = false;
   bool se3 = false;
-  bool quiet = false;
-  MeshFileFlags mesh_file;
 };
 
-/// Throws InputError if flags of mesh files are given and no such file is written.
-void check_mesh_flags(const Arguments& arguments);
+/// Throws InputError for options that do not go together, or with the extensions of the files that are to be written,
+/// as far as the command line tells. Before any work is done.
+void check_usage(const Arguments& arguments);
 
-/// Declares all options; parsing fills `arguments`, which must live until then.
+/// Throws InputError if one of these options was given; `what` is what does not go with it.
+void exclude(const Arguments& arguments, const std::string& what, const std::vector<const char*>& options);
+
+/// Throws InputError if a file of -o has none of these extensions, in lower case without a dot; `where` says when.
+void require_extensions(const Arguments& arguments, const std::string& where,
+                        const std::vector<const char*>& extensions);
+
+/// Prints the report of a run with --json, else, unless --quiet, what `for_people` prints.
+void print_result(const Arguments& arguments, const std::function<std::string()>& report,
+                  const std::function<void()>& for_people);
+
+/// Declares all options; parsing fills `arguments`. Both `app` and `arguments` must outlive the run.
 void declare(CLI::App& app, Arguments& arguments);
 
 }  // namespace nef::planner

@@ -5,23 +5,19 @@
 // moves along its path at constant speed.
 #include "apps/planner/command/assembly_run.h"
 
-#include <filesystem>
 #include <iostream>
 
 #include "apps/planner/assembly/blocking.h"
 #include "apps/planner/assembly/free_directions.h"
-#include "apps/planner/command/notes.h"
 #include "apps/planner/command/report.h"
 #include "apps/planner/command/scene_view.h"
+#include "apps/program/exact_json.h"
+#include "apps/program/run_report.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/number/brief_text.h"
-#include "nef/program/exact_json.h"
-#include "nef/program/notes.h"
-#include "nef/program/progress_bar.h"
-#include "nef/program/run_report.h"
 
 namespace nef::planner {
 namespace {
@@ -34,28 +30,6 @@ constexpr const char* kAllCovered = "all subassemblies";
 std::string covered_text(const Undecided& open) {
   if (open.proved_below <= 1) return "nothing";
   return "sets of fewer than " + std::to_string(open.proved_below) + " parts";
-}
-
-void check_assembly_options(const Arguments& a) {
-  const bool other = !a.scene.empty() || !a.start.empty() || !a.goal.empty() || !a.contact.empty() || a.tight ||
-                     !a.given_path.empty() || !a.queries.empty() || !a.ompl.empty() || !a.benchmark.empty() ||
-                     a.widest || a.widest_box || !a.keep_clear.empty() || a.limits.speed > 0 || a.prefer != "short" ||
-                     a.path.clearance || a.path.raw || !a.path.thorough || a.path.min_dimension > 0 || a.se3 ||
-                     !a.check_proof.empty();
-  if (other) throw InputError("--assembly knows --digits, --time, --json, --quiet, --page and -o only, and no scene");
-  check_mesh_flags(a);
-  if (!a.free_directions.empty() && a.path.digits) {
-    throw InputError("--free-directions has no way-points: --digits does not go with it");
-  }
-  if (!a.page.empty() && std::filesystem::path(a.page).extension() != ".html") {
-    throw InputError("--page " + a.page + ": the extension must be .html");
-  }
-  for (const std::string& file : a.outputs) {
-    if (!a.free_directions.empty()) break;  // sets, too
-    if (!is_view_file(file) && std::filesystem::path(file).extension() != ".json") {
-      throw InputError("-o " + file + ": with --assembly the extension must be .json, .html or .glb");
-    }
-  }
 }
 
 const char* status_of(const Disassembly& answer) {
@@ -178,32 +152,23 @@ int tell_free_directions(const Arguments& a, const Assembly& assembly) {
               {"everything", free.everything},
               {"rays", rays}};
   // Sets first: reports say what is to be known of their files.
-  Notes notes("planner", std::cerr, a.quiet);
-  const auto is_report = [](const std::string& file) { return std::filesystem::path(file).extension() == ".json"; };
+  const auto is_report = [](const std::string& file) { return lower_extension(file) == "json"; };
   for (const std::string& file : a.outputs) {
     if (is_report(file)) continue;
-    const PolyhedronWriteOptions options{.manifold = a.mesh_file.manifold,
-                                         .lenient = a.mesh_file.lenient,
-                                         .recenter = a.mesh_file.recenter,
-                                         .threads = a.threads};
-    Messages about;
-    const WrittenFile written = write_polyhedron(file, free.cone, options, &about);
-    notes.note(about);
-    notes.wrote(file, written);
+    a.session.store_at(file, free.cone, a.session.write_options(file));
   }
-  notes.add_offsets(report);
-  Messages messages = assembly.messages;
-  messages.insert(messages.end(), notes.list().begin(), notes.list().end());
-  const std::string text = report_text(run_report("free_directions", report, {{"op", watch.seconds(), {}}}, messages));
+  a.session.add_offsets(report);
+  std::string text =
+      report_text(run_report("free_directions", report, {{"op", watch.seconds(), {}}}, a.session.notes()));
   for (const std::string& file : a.outputs) {
     if (is_report(file)) write_file(file, text);
   }
-  if (a.json) {
-    std::cout << text;
-  } else if (!a.quiet) {
+  const auto print_cone = [&free] {
     std::cout << (free.everything ? "every direction" : "dimension " + std::to_string(free.dimension)) << '\n';
     for (const Integer3& ray : free.rays) std::cout << ray[0] << ' ' << ray[1] << ' ' << ray[2] << '\n';
-  }
+  };
+  print_result(
+      a, [&] { return text; }, print_cone);
   return 0;
 }
 
@@ -213,18 +178,12 @@ json assembly_json(const Disassembly& answer, const Assembly& assembly) {
   json result{
       {"assembly", assembly.name}, {"status", status_of(answer)}, {"motions", kTranslation}, {"steps", json::array()}};
   for (const DisassemblyStep& step : answer.steps) {
-    json exact = json::array();
-    json doubles = json::array();
-    for (const Rational3& point : step.path) {
-      exact.push_back(exact_json(point));
-      doubles.push_back(double_json(point));
-    }
     result["steps"].push_back({{"parts", names_of(step.parts, assembly)},
                                {"stay", names_of(step.stay, assembly)},
                                {"straight", step.straight},
-                               {"path", std::move(exact)},
+                               {"path", points_json(step.path)},
                                {"unrounded", step.unrounded},
-                               {"path_double", std::move(doubles)}});
+                               {"path_double", double_points_json(step.path)}});
   }
   for (const Inseparable& stuck : answer.inseparable) {
     result["inseparable"].push_back(stuck_json(stuck, assembly));
@@ -238,28 +197,23 @@ json assembly_json(const Disassembly& answer, const Assembly& assembly) {
 }
 
 int run_assembly(const Arguments& a) {
-  check_assembly_options(a);
   const Stopwatch watch;
-  const Assembly assembly = read_assembly(a.assembly);
-  print_notes(a, assembly.messages);
+  const Assembly assembly = read_assembly(a.assembly, a.session.mesh);
+  a.session.note_all(assembly.messages);
   if (!a.free_directions.empty()) return tell_free_directions(a, assembly);
-  ProgressBar bar(!a.quiet && !a.json);
   DisassemblyOptions options;
-  options.progress = [&](std::size_t steps) { bar.show("taking apart", steps, assembly.parts.size() - 1); };
+  options.progress = [&](std::size_t steps) { a.session.show_phase("taking apart", steps, assembly.parts.size() - 1); };
   options.digits = a.path.digits;
   if (a.time_given) options.stop = [&] { return watch.seconds() >= a.seconds; };
   const Disassembly answer = take_apart(assembly, options);
-  bar.clear();
-  const std::string text = report_text(
+  a.session.hide_phase();
+  std::string text = report_text(
       run_report("assembly", assembly_json(answer, assembly), {{"op", watch.seconds(), {}}}, assembly.messages));
   write_outputs(
       a, assembly.name, [&text](const std::string&) { return std::optional(text); },
       [&] { return layers_of(answer, assembly); });
-  if (a.json) {
-    std::cout << text;
-  } else if (!a.quiet) {
-    print(answer, assembly);
-  }
+  print_result(
+      a, [&] { return text; }, [&] { print(answer, assembly); });
   if (answer.overlap) return 3;
   if (!answer.inseparable.empty()) return 1;
   return answer.undecided.empty() ? 0 : 5;

@@ -1,32 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/command/certify_run.h"
 
-#include <filesystem>
 #include <iostream>
 
 #include "apps/planner/command/proof_run.h"
 #include "apps/planner/rigid/certified_path.h"
+#include "apps/program/exact_json.h"
+#include "apps/program/run_report.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/io/file_bytes.h"
-#include "nef/program/exact_json.h"
-#include "nef/program/run_report.h"
 
 namespace nef::planner {
 namespace {
 
 using nlohmann::json;
-
-void check_certify_options(const Arguments& a) {
-  if (a.tight || !a.queries.empty() || !a.page.empty() || a.widest || a.widest_box) {
-    throw InputError("a path with rotations is certified only: leave out --tight, --queries, --page and --widest");
-  }
-  for (const std::string& file : a.outputs) {
-    if (std::filesystem::path(file).extension() != ".json") {
-      throw InputError("-o " + file + ": a path with rotations has a report only, so the extension must be .json");
-    }
-  }
-}
 
 const char* status_text(MotionVerdict::Status status) {
   switch (status) {
@@ -93,7 +81,8 @@ void print(const CertifiedPath& path) {
 }  // namespace
 
 int run_certify(const Arguments& a, const Scene& scene, const std::vector<RigidPose>& poses) {
-  check_certify_options(a);
+  exclude(a, "a path with rotations", {"--tight", "--queries", "--page", "--widest", "--widest-box"});
+  require_extensions(a, "for a path with rotations", {"json"});
   const Stopwatch watch;
   const Scene unturned = with_robot_as_in_its_file(scene);
   const MotionChecker checker = MotionChecker::of_scene(unturned);
@@ -101,16 +90,13 @@ int run_certify(const Arguments& a, const Scene& scene, const std::vector<RigidP
   CheckLimits limits;
   limits.keep_parts = !a.proof.empty();
   const CertifiedPath path = certify(checker, poses, MotionTiming::kSlerp, limits);
-  const std::string text =
+  std::string text =
       report_text(run_report("certify", certified_json(path, poses, scene),
                              {{"setup", setup_s, {}}, {"op", watch.seconds() - setup_s, {}}}, scene.messages));
   for (const std::string& file : a.outputs) write_file(file, text);
   write_path_proof(a, checker, poses, path);
-  if (a.json) {
-    std::cout << text;
-  } else if (!a.quiet) {
-    print(path);
-  }
+  print_result(
+      a, [&] { return text; }, [&] { print(path); });
   if (path.status == MotionVerdict::Status::kFree) return 0;
   return path.status == MotionVerdict::Status::kCollides ? 1 : 5;
 }

@@ -2,7 +2,6 @@
 #include "apps/planner/command/clearance_run.h"
 
 #include <cmath>
-#include <filesystem>
 #include <sstream>
 
 #include "apps/planner/clearance/widest.h"
@@ -10,6 +9,7 @@
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/free_space/free_space.h"
 #include "nef/base/error.h"
+#include "nef/base/interruption.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/number/brief_text.h"
 
@@ -17,7 +17,14 @@ namespace nef::planner {
 namespace {
 
 Verdict verdict_on(const Scene& scene, const BuildOptions& build) {
-  const FreeSpace free(free_positions(scene, build));
+  if (build.stop && build.stop()) return Verdict::kUndecided;
+  Polyhedron positions;
+  try {
+    positions = free_positions(scene, build);
+  } catch (const Interrupted&) {
+    return Verdict::kUndecided;
+  }
+  const FreeSpace free(std::move(positions));
   const CellId start = free.locate(ExactPoint(*scene.start));
   const CellId goal = free.locate(ExactPoint(*scene.goal));
   if (!free.is_free(start) || !free.is_free(goal)) return Verdict::kNone;
@@ -37,21 +44,6 @@ Verdict turning_verdict_on(const Scene& scene, const TurningLimits& limits) {
 
 }  // namespace
 
-void check_clearance_usage(const Arguments& a) {
-  const bool widest = a.widest || a.widest_box;
-  if (a.widest && a.widest_box) throw InputError("--widest and --widest-box exclude each other");
-  if (widest && (a.tight || !a.given_path.empty() || !a.queries.empty() || !a.ompl.empty() || !a.benchmark.empty() ||
-                 !a.check_proof.empty())) {
-    throw InputError("--widest excludes --tight, --path, --queries, --ompl, --benchmark and --check-proof");
-  }
-  if (a.limits.acceleration > 0 && a.limits.speed <= 0) throw InputError("--acceleration wants a --speed, too");
-  for (const std::string& file : a.outputs) {
-    if (std::filesystem::path(file).extension() == ".csv" && a.limits.speed <= 0) {
-      throw InputError("-o " + file + ": time stamps want a --speed");
-    }
-  }
-}
-
 nlohmann::json make_widest(const Arguments& a, Scene& scene) {
   if (!scene.start || !scene.goal) throw InputError(scene.name + ": --widest wants a start and a goal");
   const Rational precision = parse_rational(a.precision);
@@ -60,11 +52,11 @@ nlohmann::json make_widest(const Arguments& a, Scene& scene) {
   const Polyhedron robot = scene.robot;
   Rational smallest = growth == Growth::kBox ? 0 : 1;
   BuildOptions build;
-  build.threads = a.threads;
+  build.monitor = a.session.monitor;
   TurningLimits limits;
   limits.max_cells = a.max_cells;
   const Stopwatch watch;
-  if (a.time_given) limits.stop = [&] { return watch.seconds() >= a.seconds; };
+  if (a.time_given) build.stop = limits.stop = [&] { return watch.seconds() >= a.seconds; };
   const Widest widest = find_widest(smallest, precision, growth == Growth::kScale, [&](const Rational& size) {
     smallest = std::min(smallest, size);
     scene.robot = grown(robot, growth, size);
@@ -104,17 +96,6 @@ std::string widest_text(const nlohmann::json& widest) {
   if (widest["undecided"].get<bool>()) out << ", undecided between";
   out << '\n';
   return out.str();
-}
-
-std::vector<double> times_along(const ExactPath& path, const MotionLimits& limits) {
-  std::vector<double> lengths;
-  for (std::size_t i = 1; i < path.points.size(); ++i) lengths.push_back(distance(path.points[i - 1], path.points[i]));
-  return times_of(lengths, limits);
-}
-
-std::vector<double> times_along(const std::vector<Pose>& path, const Scene& scene, const TurningAxis& axis,
-                                const MotionLimits& limits) {
-  return times_of(lengths_of(path, scene.robot, axis), limits);
 }
 
 }  // namespace nef::planner

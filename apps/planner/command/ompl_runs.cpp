@@ -95,7 +95,8 @@ OmplOutcome run_ompl(const Problem& problem, const OmplRequest& request) {
   outcome.summary = line.str();
   if (invalid) {
     outcome.exit_code = 3;
-    outcome.summary = status_name(outcome.answer.status) + ": " + describe(*outcome.answer.collision, problem.scene());
+    outcome.summary =
+        std::string(status_name(outcome.answer.status)) + ": " + describe(*outcome.answer.collision, problem.scene());
   } else if (outcome.solved > 0) {
     outcome.answer.status = Answer::Status::kPath;
     outcome.exit_code = 0;
@@ -145,7 +146,7 @@ int run_benchmark(const Problem& problem, const std::vector<std::string>& planne
   const QuietOmpl quiet_ompl;
   const Answer ends = problem.solve();
   if (ends.collision) {
-    std::printf("%s: %s\n", status_name(ends.status).c_str(), describe(*ends.collision, problem.scene()).c_str());
+    std::printf("%s: %s\n", status_name(ends.status), describe(*ends.collision, problem.scene()).c_str());
     return 3;
   }
   TranslationPlanning setup(problem);

@@ -9,10 +9,9 @@
 #include "apps/planner/path/path_file.h"
 #include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid/pose_file.h"
+#include "apps/program/run_report.h"
 #include "nef/base/error.h"
-#include "nef/base/timing/stopwatch.h"
 #include "nef/io/file_bytes.h"
-#include "nef/program/run_report.h"
 
 namespace nef::planner {
 namespace {
@@ -53,13 +52,6 @@ bool same_poses(const std::vector<RigidPose>& a, const std::vector<RigidPose>& b
 
 }  // namespace
 
-void check_proof_usage(const Arguments& a) {
-  if (a.proof.empty()) return;
-  if (!a.queries.empty() || !a.benchmark.empty() || !a.assembly.empty() || !a.check_proof.empty()) {
-    throw InputError("--proof excludes --queries, --benchmark, --assembly and --check-proof");
-  }
-}
-
 void write_path_proof(const Arguments& a, const MotionChecker& checker, const std::vector<RigidPose>& poses,
                       const CertifiedPath& known) {
   if (a.proof.empty()) return;
@@ -96,6 +88,21 @@ void write_translation_proof(const Arguments& a, const Scene& scene, const Polyh
   write_path_proof(a, checker, poses, known);
 }
 
+int tell_check(const Arguments& a, const Scene& scene, const std::optional<std::string>& complaint,
+               const nlohmann::json& found, const std::string& what_holds, const Stopwatch& watch) {
+  const auto report = [&] {
+    nlohmann::json all{{"scene", scene.name}, {"holds", !complaint}};
+    all.update(found);
+    if (complaint) all["complaint"] = *complaint;
+    return report_text(run_report("check_proof", all, {{"op", watch.seconds(), {}}}, scene.messages));
+  };
+  const auto print = [&] {
+    std::cout << (complaint ? "the proof does not hold: " + *complaint : "the proof holds" + what_holds) << '\n';
+  };
+  print_result(a, report, print);
+  return complaint ? 1 : 0;
+}
+
 std::optional<int> run_check_proof(const Arguments& a, const Scene& scene) {
   if (a.check_proof.empty()) return std::nullopt;
   const std::string text = read_file(a.check_proof);
@@ -108,14 +115,7 @@ std::optional<int> run_check_proof(const Arguments& a, const Scene& scene) {
     complaint = "it is about another path than " + a.given_path;
   }
   const std::string claim = status_word(proof.claim.status);
-  if (a.json) {
-    nlohmann::json report{{"scene", scene.name}, {"holds", !complaint}, {"claim", claim}};
-    if (complaint) report["complaint"] = *complaint;
-    std::cout << report_text(run_report("check_proof", report, {{"op", watch.seconds(), {}}}, scene.messages));
-  } else if (!a.quiet) {
-    std::cout << (complaint ? "the proof does not hold: " + *complaint : "the proof holds: " + claim) << '\n';
-  }
-  return complaint ? 1 : 0;
+  return tell_check(a, scene, complaint, {{"claim", claim}}, ": " + claim, watch);
 }
 
 }  // namespace nef::planner

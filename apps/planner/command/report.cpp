@@ -6,9 +6,12 @@
 
 #include <sstream>
 
+#include "apps/planner/clearance/timing.h"
+#include "apps/program/exact_json.h"
 #include "nef/base/error.h"
+#include "nef/io/number_text.h"
 #include "nef/number/brief_text.h"
-#include "nef/program/exact_json.h"
+#include "nef/query/location_name.h"
 
 namespace nef::planner {
 namespace {
@@ -16,9 +19,9 @@ namespace {
 using nlohmann::json;
 
 json cell_json(const FreeSpace& free, CellId cell) {
-  json vertices = json::array();
-  for (const Rational3& vertex : free.vertices(cell)) vertices.push_back(exact_json(vertex));
-  return {{"cell", free.name(cell)}, {"dimension", free.cells().dimension(cell)}, {"vertices", std::move(vertices)}};
+  return {{"cell", free.name(cell)},
+          {"dimension", free.cells().dimension(cell)},
+          {"vertices", points_json(free.vertices(cell))}};
 }
 
 json cells_json(const FreeSpace& free, const std::vector<CellId>& cells) {
@@ -39,23 +42,15 @@ json collision_json(const Collision& collision, const Scene& scene) {
     result["outside_box"] = true;
     return result;
   }
-  static constexpr std::array<const char*, 4> kKinds{"vertex", "edge", "facet", "volume"};
   result["obstacle"] = collision.obstacle;
   result["obstacle_name"] = scene.obstacle_names[collision.obstacle];
-  result["cell"] =
-      std::string(kKinds[static_cast<std::size_t>(collision.cell.kind)]) + " " + std::to_string(collision.cell.index);
+  result["cell"] = std::string(location_name(collision.cell.kind)) + " " + std::to_string(collision.cell.index);
   return result;
 }
 
 void add_path(const ExactPath& path, json& result) {
-  json exact = json::array();
-  json doubles = json::array();
-  for (const Rational3& point : path.points) {
-    exact.push_back(exact_json(point));
-    doubles.push_back(double_json(point));
-  }
-  result["path"] = std::move(exact);
-  result["path_double"] = std::move(doubles);
+  result["path"] = points_json(path.points);
+  result["path_double"] = double_points_json(path.points);
   result["length"] = path.length;
   result["cells"] = path.segment_dimensions;
   result["path_thinnest_piece"] = path.thinness.piece;
@@ -66,23 +61,31 @@ void add_path(const ExactPath& path, json& result) {
 
 }  // namespace
 
-int exit_code(const Answer& answer) {
-  switch (answer.status) {
-    case Answer::Status::kInfeasible:
-    case Answer::Status::kBlocked:
+json points_json(const std::vector<Rational3>& points) {
+  json result = json::array();
+  for (const Rational3& point : points) result.push_back(exact_json(point));
+  return result;
+}
+
+json double_points_json(const std::vector<Rational3>& points) {
+  json result = json::array();
+  for (const Rational3& point : points) result.push_back(double_json(point));
+  return result;
+}
+
+int exit_code(AnswerStatus status) {
+  switch (status) {
+    case AnswerStatus::kInfeasible:
+    case AnswerStatus::kBlocked:
       return 1;
-    case Answer::Status::kInvalidStart:
-    case Answer::Status::kInvalidGoal:
+    case AnswerStatus::kInvalidStart:
+    case AnswerStatus::kInvalidGoal:
       return 3;
+    case AnswerStatus::kUndecided:
+      return 5;
     default:
       return 0;
   }
-}
-
-std::string status_name(Answer::Status status) {
-  static constexpr std::array<const char*, 6> kNames{"path",         "infeasible", "invalid_start",
-                                                     "invalid_goal", "free_space", "blocked"};
-  return kNames[static_cast<std::size_t>(status)];
 }
 
 json passages_json(const FreeSpace& free) {
@@ -92,7 +95,7 @@ json passages_json(const FreeSpace& free) {
                {"component", passage.component},
                {"cells", cells_json(free, passage.cells)},
                {"mouths", cells_json(free, passage.mouths)},
-               {"joins", names_json(free, passage.rooms)}};
+               {"joins", names_json(free, passage.volumes)}};
     if (passage.bottleneck) {
       entry["bottleneck"] = {{"piece", passage.bottleneck->piece}, {"junction", passage.bottleneck->junction}};
     }
@@ -103,11 +106,11 @@ json passages_json(const FreeSpace& free) {
 
 json touching_json(const FreeSpace& free) {
   json result = json::array();
-  for (const TouchingRooms& place : free.touching_rooms()) {
-    result.push_back({{"dimension", place.dimension},
-                      {"component", place.component},
-                      {"cells", cells_json(free, place.cells)},
-                      {"joins", names_json(free, place.rooms)}});
+  for (const TouchingVolumes& touching : free.touching_volumes()) {
+    result.push_back({{"dimension", touching.dimension},
+                      {"component", touching.component},
+                      {"cells", cells_json(free, touching.cells)},
+                      {"joins", names_json(free, touching.volumes)}});
   }
   return result;
 }
@@ -154,6 +157,17 @@ std::string unrounded_text(const std::vector<std::size_t>& waypoints) {
   return text + '\n';
 }
 
+std::string timed_text(const std::string& columns, const std::vector<double>& times,
+                       const std::function<std::vector<double>(std::size_t waypoint)>& row) {
+  std::string out = "t," + columns + '\n';
+  for (const std::size_t i : distinct_times(times)) {
+    append_number(out, times[i]);
+    for (const double value : row(i)) append_number(out += ',', value);
+    out += '\n';
+  }
+  return out;
+}
+
 std::vector<ReportPhase> report_phases(const std::map<std::string, double>& seconds) {
   std::vector<ReportPhase> list;
   for (const auto& [name, value] : seconds) list.push_back({name, value, {}});
@@ -176,9 +190,9 @@ std::string passages_text(const FreeSpace& free) {
   for (std::size_t i = 0; i < free.passages().size(); ++i) {
     const TightPassage& passage = free.passages()[i];
     out << "passage " << i << ": dimension " << passage.dimension << ", component " << passage.component;
-    if (!passage.rooms.empty()) {
+    if (!passage.volumes.empty()) {
       out << ", joins";
-      names(passage.rooms);
+      names(passage.volumes);
     }
     if (passage.bottleneck) {
       out << ", bottleneck: piece " << passage.bottleneck->piece << ", junction " << passage.bottleneck->junction;
@@ -187,11 +201,11 @@ std::string passages_text(const FreeSpace& free) {
     for (const CellId cell : passage.cells) list("  ", cell);
     for (const CellId cell : passage.mouths) list("  mouth ", cell);
   }
-  for (const TouchingRooms& place : free.touching_rooms()) {
-    out << "touch: dimension " << place.dimension << ", component " << place.component << ", joins";
-    names(place.rooms);
+  for (const TouchingVolumes& touching : free.touching_volumes()) {
+    out << "touch: dimension " << touching.dimension << ", component " << touching.component << ", joins";
+    names(touching.volumes);
     out << '\n';
-    for (const CellId cell : place.cells) list("  ", cell);
+    for (const CellId cell : touching.cells) list("  ", cell);
   }
   return out.str();
 }

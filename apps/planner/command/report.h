@@ -3,21 +3,20 @@
 // Answers of the planner as data: JSON, text, OMPL's path matrix.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "apps/planner/path/answer.h"
-#include "nef/program/run_report.h"
+#include "apps/program/run_report.h"
 
 namespace nef::planner {
 
 /// Exit code of the command: 0 path (or no question), 1 infeasible (or a given path is blocked), 3 invalid start or
-/// goal.
-int exit_code(const Answer& answer);
-/// "path", "infeasible", "invalid_start", "invalid_goal", "free_space", "blocked".
-std::string status_name(Answer::Status status);
+/// goal, 5 undecided.
+int exit_code(AnswerStatus status);
 
 /// What an answer is about, key `motions` of reports: translations at one orientation, or turns about an axis, too.
 inline constexpr const char* kTranslation = "translation";
@@ -25,6 +24,14 @@ inline constexpr const char* kTranslationAndTurning = "translation and turning";
 
 /// A line that names way-points which could not be rounded.
 std::string unrounded_text(const std::vector<std::size_t>& waypoints);
+
+/// Way-points with time stamps, a line each: t and the numbers of `row`, which stand under `columns`.
+std::string timed_text(const std::string& columns, const std::vector<double>& times,
+                       const std::function<std::vector<double>(std::size_t waypoint)>& row);
+
+/// Points as exact strings, and as doubles.
+nlohmann::json points_json(const std::vector<Rational3>& points);
+nlohmann::json double_points_json(const std::vector<Rational3>& points);
 
 /// The keys of one answer: status, path, proof, collision.
 nlohmann::json answer_json(const Answer& answer, const Scene& scene);
@@ -36,7 +43,7 @@ Json answer_report(const Answer& answer, const Scene& scene, const FreeSpace& fr
 std::vector<ReportPhase> report_phases(const std::map<std::string, double>& seconds);
 /// The tight passages alone.
 nlohmann::json passages_json(const FreeSpace& free);
-/// The places where rooms only touch.
+/// Where volumes only touch.
 nlohmann::json touching_json(const FreeSpace& free);
 /// Both for people.
 std::string passages_text(const FreeSpace& free);

@@ -2,13 +2,12 @@
 //
 // `run` dispatches, cheapest first. After the usage check and reading come the questions that need no free space (a
 // given path with rotations, a robot that turns, an end that is not free). Then, if only a path is asked for, a search
-// for a path with room (`wide_answer`, `near_answer`). Otherwise a Problem computes the whole free space, and queries,
-// a given path, OMPL's planners or the scene's own question are answered from it. Each branch writes its files, prints,
-// and returns the exit code.
+// for a path in a part of free space (`partial_answer`). Otherwise a Problem computes the whole free space, and
+// queries, a given path, OMPL's planners or the scene's own question are answered from it. Each branch writes its
+// files, prints, and returns the exit code.
 #include "apps/planner/command/run.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
 
 #include "apps/planner/clearance/keep_clear.h"
@@ -16,25 +15,24 @@
 #include "apps/planner/command/assembly_run.h"
 #include "apps/planner/command/certify_run.h"
 #include "apps/planner/command/clearance_run.h"
-#include "apps/planner/command/notes.h"
 #include "apps/planner/command/ompl_runs.h"
 #include "apps/planner/command/proof_run.h"
+#include "apps/planner/command/range_run.h"
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/command/turning_run.h"
-#include "apps/planner/ompl/ompl_planners.h"
-#include "apps/planner/path/near_answer.h"
+#include "apps/planner/path/partial_answer.h"
 #include "apps/planner/path/path_file.h"
 #include "apps/planner/path/queries.h"
 #include "apps/planner/path/question.h"
-#include "apps/planner/path/wide_answer.h"
 #include "apps/planner/rigid/pose_file.h"
+#include "apps/program/exact_json.h"
+#include "apps/program/numbers.h"
+#include "apps/program/run_program.h"
 #include "nef/base/error.h"
+#include "nef/base/monitor.h"
+#include "nef/base/timing/stopwatch.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/number_text.h"
-#include "nef/program/exact_json.h"
-#include "nef/program/numbers.h"
-#include "nef/program/progress_bar.h"
-#include "nef/program/run_program.h"
 
 namespace nef::planner {
 namespace {
@@ -51,7 +49,7 @@ Rational3 end_of(const std::string& text, const std::string& option, Rational* d
 }
 
 Scene scene_of(const Arguments& a) {
-  Scene scene = read_scene(a.scene);
+  Scene scene = read_scene(a.scene, a.session.mesh);
   Rational* const no_angle = nullptr;
   if (!a.start.empty()) scene.start = end_of(a.start, "--start", scene.rotation ? &scene.rotation->start : no_angle);
   if (!a.goal.empty()) scene.goal = end_of(a.goal, "--goal", scene.rotation ? &scene.rotation->goal : no_angle);
@@ -59,69 +57,38 @@ Scene scene_of(const Arguments& a) {
   return scene;
 }
 
-// Found out before any work is done.
-void check_usage(const Arguments& a) {
-  check_mesh_flags(a);
-  if (!a.page.empty() && std::filesystem::path(a.page).extension() != ".html") {
-    throw InputError("--page " + a.page + ": the extension must be .html");
-  }
-  if (!a.ompl.empty() && !a.benchmark.empty()) throw InputError("--ompl and --benchmark exclude each other");
-  if (!a.given_path.empty() && !(a.ompl.empty() && a.benchmark.empty())) {
-    throw InputError("--path checks a given path; it excludes --ompl and --benchmark");
-  }
-  if (!a.queries.empty() && !(a.ompl.empty() && a.benchmark.empty() && a.given_path.empty() && a.page.empty())) {
-    throw InputError("--queries excludes --path, --page, --ompl and --benchmark");
-  }
-  for (const std::string& file : a.outputs) {
-    if (!a.queries.empty() && std::filesystem::path(file).extension() != ".json") {
-      throw InputError("-o " + file + ": with --queries the extension must be .json");
-    }
-  }
-  check_clearance_usage(a);
-  check_proof_usage(a);
-  for (const std::string& name : a.planners) require_ompl_planner(name);
-  if (!a.ompl.empty()) require_ompl_planner(a.ompl);
-}
-
-// A scene and the free space in which answers were looked for: all of it, or what has room.
+// A scene and the free space in which answers were looked for: all of it, or a part.
 struct Asked {
   // NOLINTNEXTLINE(google-explicit-constructor): a problem is both
   Asked(const Problem& problem) : scene(problem.scene()), free(problem.free_space()) {}
-  Asked(const Scene& its_scene, const FreeSpace& wide) : scene(its_scene), free(wide), only_wide(true) {}
+  Asked(const Scene& its_scene, const FreeSpace& part) : scene(its_scene), free(part), is_partial(true) {}
   const Scene& scene;
   const FreeSpace& free;
-  bool only_wide = false;
+  bool is_partial = false;
 };
 
 // Everything about an answer, time stamps and the widest robot too, if they were asked for.
 std::string report_of(const Arguments& a, const Answer& answer, const Asked& asked, const nlohmann::json& widest) {
   nlohmann::json more = nlohmann::json::object();
-  if (answer.path && a.limits.speed > 0) more["times_s"] = times_along(*answer.path, a.limits);
+  if (answer.path && a.limits.speed > 0) more["times_s"] = times_of(lengths_of(*answer.path), a.limits);
   if (!widest.is_null()) more["widest"] = widest;
-  if (asked.only_wide) more["components"] = more["tight"] = more["touching"] = nullptr;
+  if (asked.is_partial) more["components"] = more["tight"] = more["touching"] = nullptr;
   return report_text(answer_report(answer, asked.scene, asked.free, more));
-}
-
-// t,x,y,z, a way-point a line.
-std::string timed_text(const ExactPath& path, const MotionLimits& limits) {
-  const std::vector<double> times = times_along(path, limits);
-  std::string out = "t,x,y,z\n";
-  for (const std::size_t i : distinct_times(times)) {
-    append_number(out, times[i]);
-    for (const Rational& x : path.points[i]) append_number(out += ',', nearest_double(x));
-    out += '\n';
-  }
-  return out;
 }
 
 // What a file holds: the report whatever the answer; other formats hold a path.
 std::optional<std::string> rendered(const Arguments& a, const std::string& file, const Answer& answer,
                                     const Asked& asked, const nlohmann::json& widest) {
-  const std::string extension = std::filesystem::path(file).extension().string();
-  if (extension == ".json") return report_of(a, answer, asked, widest);
+  const std::string extension = lower_extension(file);
+  if (extension == "json") return report_of(a, answer, asked, widest);
   if (!answer.path) return std::nullopt;
-  if (extension == ".csv") return timed_text(*answer.path, a.limits);
-  if (extension == ".path" || a.se3) return path_matrix(*answer.path, a.se3);
+  if (extension == "csv") {
+    return timed_text("x,y,z", times_of(lengths_of(*answer.path), a.limits), [&answer](std::size_t i) {
+      const Vector3d at = to_vector(answer.path->points[i]);
+      return std::vector<double>{at[0], at[1], at[2]};
+    });
+  }
+  if (extension == "path" || a.se3) return path_matrix(*answer.path, a.se3);
   return path_text(*answer.path);
 }
 
@@ -150,23 +117,23 @@ void print_path(const Arguments& a, const Answer& answer) {
 }
 
 void print(const Arguments& a, const Answer& answer, const Asked& asked, const nlohmann::json& widest = nullptr) {
-  if (a.json) {
-    std::cout << report_of(a, answer, asked, widest);
-    return;
-  }
-  if (a.quiet) return;
-  if (!widest.is_null()) std::cout << widest_text(widest);
-  std::cout << status_name(answer.status);
-  if (answer.status == Answer::Status::kInfeasible) std::cout << " by translation at this orientation";
-  if (answer.blocked_segment) std::cout << ": segment " << *answer.blocked_segment << " leaves free space";
-  if (answer.collision) std::cout << ": " << describe(*answer.collision, asked.scene);
-  if (answer.status == Answer::Status::kInfeasible) {
-    std::cout << ": start is in component " << answer.start_component << ", goal in component "
-              << answer.goal_component;
-    if (answer.start_component == answer.goal_component) std::cout << ", joined only by thinner passages";
-  }
-  std::cout << '\n';
-  if (answer.path) print_path(a, answer);
+  const auto print_answer = [&] {
+    if (!widest.is_null()) std::cout << widest_text(widest);
+    std::cout << status_name(answer.status);
+    if (answer.status == AnswerStatus::kInfeasible) std::cout << " by translation at this orientation";
+    if (answer.status == AnswerStatus::kUndecided) std::cout << ": the --time was up";
+    if (answer.blocked_segment) std::cout << ": segment " << *answer.blocked_segment << " leaves free space";
+    if (answer.collision) std::cout << ": " << describe(*answer.collision, asked.scene);
+    if (answer.status == AnswerStatus::kInfeasible) {
+      std::cout << ": start is in component " << answer.start_component << ", goal in component "
+                << answer.goal_component;
+      if (answer.start_component == answer.goal_component) std::cout << ", joined only by thinner passages";
+    }
+    std::cout << '\n';
+    if (answer.path) print_path(a, answer);
+  };
+  print_result(
+      a, [&] { return report_of(a, answer, asked, widest); }, print_answer);
 }
 
 int check_given_path(const Arguments& a, const Problem& problem) {
@@ -174,24 +141,24 @@ int check_given_path(const Arguments& a, const Problem& problem) {
   const Answer answer = problem.check(points);
   write_answer(a, answer, problem, nullptr, points);
   print(a, answer, problem);
-  if (answer.path && a.tight && !a.json && !a.quiet) {
+  if (answer.path && a.tight && !a.session.json && !a.session.quiet) {
     std::cout << passages_text(problem.free_space()) << "uses passages:";
     for (const std::uint32_t passage : answer.path->passages) std::cout << ' ' << passage;
     std::cout << (answer.path->passages.empty() ? " none\n" : "\n");
   }
-  return exit_code(answer);
+  return exit_code(answer.status);
 }
 
 // One line for each question, or one report with all answers.
-int answer_queries(const Arguments& a, const Problem& problem) {
+int answer_queries(const Arguments& a, const Problem& problem, const Monitor& monitor) {
   PathOptions options = a.path;
   options.roomy = a.prefer == "roomy";
-  const bool report = a.json || !a.outputs.empty();
+  const bool report = a.session.json || !a.outputs.empty();
   int code = 0;
   nlohmann::json answers = nlohmann::json::array();
   for (const Query& query : read_queries(a.queries)) {
-    const Answer answer = problem.solve(query.start, query.goal, options);
-    code = std::max(code, exit_code(answer));
+    const Answer answer = problem.solve(query.start, query.goal, options, monitor);
+    code = std::max(code, exit_code(answer.status));
     if (report) {
       nlohmann::json entry = answer_json(answer, problem.scene());
       entry["start"] = exact_json(query.start);
@@ -199,7 +166,7 @@ int answer_queries(const Arguments& a, const Problem& problem) {
       entry["query_s"] = answer.phases.at("query");
       answers.push_back(std::move(entry));
     }
-    if (a.json || a.quiet) continue;
+    if (a.session.json || a.session.quiet) continue;
     std::cout << status_name(answer.status);
     if (answer.path) std::cout << ", length " << answer.path->length;
     if (answer.collision) std::cout << ": " << describe(*answer.collision, problem.scene());
@@ -211,19 +178,19 @@ int answer_queries(const Arguments& a, const Problem& problem) {
   const std::string text =
       report_text(run_report("queries", result, report_phases(problem.phases()), problem.scene().messages));
   for (const std::string& file : a.outputs) write_file(file, text);
-  if (a.json) std::cout << text;
+  if (a.session.json) std::cout << text;
   return code;
 }
 
 int run_stock_planner(const Arguments& a, const Problem& problem) {
   const OmplOutcome outcome = run_ompl(problem, {a.ompl, a.seconds, a.runs, a.path.digits});
   write_answer(a, outcome.answer, problem);
-  if (!a.quiet && !a.json) std::cout << outcome.summary << '\n';
-  if (a.json || outcome.answer.path) print(a, outcome.answer, problem);
+  if (!a.session.quiet && !a.session.json) std::cout << outcome.summary << '\n';
+  if (a.session.json || outcome.answer.path) print(a, outcome.answer, problem);
   return outcome.exit_code;
 }
 
-int answer_question(const Arguments& a, const Problem& problem, const nlohmann::json& widest) {
+int answer_question(const Arguments& a, const Problem& problem, const nlohmann::json& widest, const Monitor& monitor) {
   const Scene& scene = problem.scene();
   const bool list_only = a.tight && a.outputs.empty();
   // There is something to show without a question, too.
@@ -233,12 +200,12 @@ int answer_question(const Arguments& a, const Problem& problem, const nlohmann::
   if ((scene.start && scene.goal) || !needs_no_question) {
     PathOptions options = a.path;
     options.roomy = a.prefer == "roomy";
-    answer = problem.solve(options);
+    answer = problem.solve(options, monitor);
   }
   write_answer(a, answer, problem, widest);
-  if (!list_only || a.json) print(a, answer, problem, widest);
-  if (a.tight && !a.json && !a.quiet) std::cout << passages_text(problem.free_space());
-  return list_only ? 0 : exit_code(answer);
+  if (!list_only || a.session.json) print(a, answer, problem, widest);
+  if (a.tight && !a.session.json && !a.session.quiet) std::cout << passages_text(problem.free_space());
+  return list_only ? 0 : exit_code(answer.status);
 }
 
 // True if only a path is asked for, and nothing about free space.
@@ -247,59 +214,70 @@ bool asks_for_a_path_only(const Arguments& a) {
          a.benchmark.empty() && std::none_of(a.outputs.begin(), a.outputs.end(), is_view_file);
 }
 
-// Asks whether start and goal are free before any free space is made; nothing if they are.
-std::optional<int> answer_invalid_end(const Arguments& a, const Scene& scene, const nlohmann::json& widest,
-                                      ProgressBar& bar) {
-  if (!asks_for_a_path_only(a) || !scene.start || !scene.goal) return std::nullopt;
-  const std::optional<Answer> answer = Problem::invalid_end(scene, *scene.start, *scene.goal);
-  if (!answer) return std::nullopt;
-  bar.clear();
+// Writes and prints an answer that was found before free space was made.
+int tell_without_free_space(const Arguments& a, const Answer& answer, const Scene& scene,
+                            const nlohmann::json& widest) {
+  a.session.hide_phase();
   const FreeSpace not_made{Polyhedron()};
   const Asked asked(scene, not_made);
-  write_answer(a, *answer, asked, widest);
-  print(a, *answer, asked, widest);
-  return exit_code(*answer);
+  write_answer(a, answer, asked, widest);
+  print(a, answer, asked, widest);
+  return exit_code(answer.status);
+}
+
+// Asks whether start and goal are free before any free space is made; nothing if they are.
+std::optional<int> answer_invalid_end(const Arguments& a, const Scene& scene, const nlohmann::json& widest,
+                                      const Monitor& monitor) {
+  if (!asks_for_a_path_only(a) || !scene.start || !scene.goal) return std::nullopt;
+  const std::optional<Answer> answer = Problem::invalid_end(scene, *scene.start, *scene.goal, monitor);
+  if (!answer) return std::nullopt;
+  return tell_without_free_space(a, *answer, scene, widest);
 }
 
 // Looks for a path without cells and tight passages; nothing if there is none like that.
-std::optional<int> answer_without_tight_passages(const Arguments& a, const Scene& scene, const BuildOptions& build,
-                                                 const nlohmann::json& widest, ProgressBar& bar) {
+std::optional<int> answer_from_a_part(const Arguments& a, const Scene& scene, const BuildOptions& build,
+                                      const nlohmann::json& widest) {
   if (!asks_for_a_path_only(a)) return std::nullopt;
   PathOptions options = a.path;
   options.roomy = a.prefer == "roomy";
-  std::optional<WideAnswer> found;
-  if (may_have_wide_answer(scene)) {
-    found = wide_answer(scene, options, build);
-  } else if (may_have_near_answer(scene)) {
-    found = near_answer(scene, options, build);
-  }
+  const std::optional<PartialAnswer> found = partial_answer(scene, options, build);
   if (!found) return std::nullopt;
-  bar.clear();
+  a.session.hide_phase();
   Scene told = scene;
   told.messages.emplace_back("tight passages were not looked for, since there is a path with room; --tight lists them");
-  print_notes(a, {told.messages.back()});
+  a.session.note(told.messages.back());
   const Asked asked(told, *found->free);
   write_answer(a, found->answer, asked, widest);
   print(a, found->answer, asked, widest);
-  return exit_code(found->answer);
+  return exit_code(found->answer.status);
+}
+
+int answer_about_translations(const Arguments& a, const Scene& scene, const BuildOptions& build,
+                              const nlohmann::json& widest) {
+  if (const std::optional<int> code = answer_invalid_end(a, scene, widest, build.monitor)) return *code;
+  if (const std::optional<int> code = answer_from_a_part(a, scene, build, widest)) return *code;
+  const Problem problem(scene, build);
+  a.session.hide_phase();
+  if (!a.queries.empty()) return answer_queries(a, problem, build.monitor);
+  if (!a.given_path.empty()) return check_given_path(a, problem);
+  if (!a.benchmark.empty()) return run_benchmark(problem, a.planners, a.seconds, a.runs, a.benchmark, a.session.quiet);
+  if (!a.ompl.empty()) return run_stock_planner(a, problem);
+  return answer_question(a, problem, widest, build.monitor);
 }
 
 int run(const Arguments& a) {
-  if (!a.assembly.empty()) return run_assembly(a);
-  if (!a.free_directions.empty()) throw InputError("--free-directions asks about a part of an --assembly");
-  if (a.scene.empty()) throw InputError("scene is required: planner SCENE, or planner --assembly PARTS.json");
   check_usage(a);
-  ProgressBar bar(!a.quiet && !a.json);
+  if (!a.range.empty()) return run_range(a);
+  if (!a.assembly.empty()) return run_assembly(a);
   BuildOptions build;
-  build.threads = a.threads;
-  build.progress = [&bar](const std::string& phase, std::size_t done, std::size_t total) {
-    bar.show(phase, done, total);
+  build.progress = [&a](const std::string& phase, std::size_t done, std::size_t total) {
+    a.session.show_phase(phase, done, total);
   };
-  bar.show("reading " + a.scene, 0, 0);
+  a.session.show_phase("reading " + a.scene);
   Scene scene = scene_of(a);
   if (!a.keep_clear.empty()) keep_clear(scene, parse_rational(a.keep_clear));
-  bar.clear();
-  print_notes(a, scene.messages);
+  a.session.hide_phase();
+  a.session.note_all(scene.messages);
   if (const std::optional<int> code = run_check_proof(a, scene)) return *code;
   if (!a.given_path.empty()) {
     if (const auto poses = read_poses(a.given_path)) return run_certify(a, scene, *poses);
@@ -307,20 +285,25 @@ int run(const Arguments& a) {
   nlohmann::json widest;
   if (a.widest || a.widest_box) widest = make_widest(a, scene);
   if (scene.rotation) {
-    bar.clear();
+    a.session.hide_phase();
     return run_turning(a, scene, widest);
   }
   if (!a.check_proof.empty())
     throw InputError("--check-proof " + a.check_proof + ": no .proof file, and the scene has no rotation");
-  if (const std::optional<int> code = answer_invalid_end(a, scene, widest, bar)) return *code;
-  if (const std::optional<int> code = answer_without_tight_passages(a, scene, build, widest, bar)) return *code;
-  const Problem problem(std::move(scene), build);
-  bar.clear();
-  if (!a.queries.empty()) return answer_queries(a, problem);
-  if (!a.given_path.empty()) return check_given_path(a, problem);
-  if (!a.benchmark.empty()) return run_benchmark(problem, a.planners, a.seconds, a.runs, a.benchmark, a.quiet);
-  if (!a.ompl.empty()) return run_stock_planner(a, problem);
-  return answer_question(a, problem, widest);
+  // An OMPL planner has the time for itself.
+  const bool timed = a.time_given && a.ompl.empty() && a.benchmark.empty();
+  const Stopwatch watch;
+  const StopQuestion question(timed ? std::function<bool()>([&] { return watch.seconds() >= a.seconds; }) : nullptr,
+                              a.session.monitor);
+  build.monitor = question.monitor();
+  try {
+    return answer_about_translations(a, scene, build, widest);
+  } catch (const Interrupted&) {
+    Answer answer;
+    answer.status = Answer::Status::kUndecided;
+    answer.phases["op"] = watch.seconds();
+    return tell_without_free_space(a, answer, scene, widest);
+  }
 }
 
 }  // namespace
@@ -328,9 +311,11 @@ int run(const Arguments& a) {
 int run_command(int argc, char** argv) {
   CLI::App app("Plans the motion of a translating robot exactly: a path, or a proof that there is none.", "planner");
   app.set_version_flag("--version", std::string("planner " NEF_VERSION));
-  Arguments arguments;
+  Session session("planner", std::cout, std::cerr);
+  Arguments arguments(session);
   declare(app, arguments);
-  return run_program(app, argc, argv, [&arguments] { return run(arguments); });
+  return run_program(
+      app, argc, argv, [&] { return run(arguments); }, [&](const std::string& line) { session.complain(line); });
 }
 
 }  // namespace nef::planner

@@ -6,11 +6,9 @@
 // proportional to the length of the path.
 #include "apps/planner/command/scene_view.h"
 
-#include <filesystem>
-
+#include "apps/view/glb.h"
+#include "apps/view/page.h"
 #include "nef/io/file_bytes.h"
-#include "nef/view/glb.h"
-#include "nef/view/page.h"
 
 namespace nef::planner {
 namespace {
@@ -57,8 +55,8 @@ Polyhedron ends(const Answer& answer, const Scene& scene) {
   return unite_all(points);
 }
 
-std::vector<ViewPart> parts_of(const Answer& answer, const Scene& scene, const FreeSpace& free) {
-  std::vector<ViewPart> parts;
+std::vector<ShownSet> parts_of(const Answer& answer, const Scene& scene, const FreeSpace& free) {
+  std::vector<ShownSet> parts;
   parts.push_back({"robot", at(scene.robot, first_position(answer, scene).value_or(Rational3{})), kRobot});
   const std::optional<Rational3> goal = answer.path ? answer.path->points.back() : scene.goal;
   if (goal) parts.push_back({"robot at the goal", at(scene.robot, *goal), kRobot, 0.3});
@@ -66,43 +64,22 @@ std::vector<ViewPart> parts_of(const Answer& answer, const Scene& scene, const F
   parts.push_back({kTightName, tight_part(free), kTight});
   parts.push_back({"free space", free.set(), kFree, 0.3, false});
   parts.push_back({answer.path ? "path" : "start and goal", ends(answer, scene), kPath});
-  std::erase_if(parts, [](const ViewPart& part) { return part.set.is_empty(); });
+  std::erase_if(parts, [](const ShownSet& part) { return part.set.is_empty(); });
   return parts;
-}
-
-// Times are proportional to the length of the way.
-view::Motion motion_along(const ExactPath& path) {
-  view::Motion motion;
-  const view::Point begin = to_double(path.points.front());
-  double way = 0;
-  for (std::size_t i = 0; i < path.points.size(); ++i) {
-    if (i > 0 && path.points[i] == path.points[i - 1]) continue;  // times must increase
-    if (i > 0) way += distance(path.points[i - 1], path.points[i]);
-    const view::Point here = to_double(path.points[i]);
-    motion.times.push_back(path.length > 0 ? kPlaySeconds * way / path.length : 0);
-    motion.offsets.push_back({here[0] - begin[0], here[1] - begin[1], here[2] - begin[2]});
-  }
-  return motion;
-}
-
-std::string lower_extension_of(const std::string& file) {
-  std::string extension = std::filesystem::path(file).extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
 }
 
 }  // namespace
 
-std::vector<view::Layer> layers_of(const std::vector<ViewPart>& parts) {
+std::vector<view::Layer> layers_of(const std::vector<ShownSet>& parts) {
   // The free space may be unbounded; it is cut where the rest is, so that this stays large.
   std::vector<Polyhedron> sets;
-  for (const ViewPart& part : parts) {
+  for (const ShownSet& part : parts) {
     if (part.visible) sets.push_back(part.set);
   }
   view::SceneOptions options;
   options.box = view::visible_box(sets);
   std::vector<view::Layer> layers;
-  for (const ViewPart& part : parts) {
+  for (const ShownSet& part : parts) {
     view::Layer& layer = layers.emplace_back();
     layer.name = part.name;
     layer.scene = view::build_scene(part.set, options);
@@ -113,23 +90,37 @@ std::vector<view::Layer> layers_of(const std::vector<ViewPart>& parts) {
   return layers;
 }
 
+void move_along(const std::vector<Rational3>& points, const std::vector<double>& lengths, const TurnAt& turn,
+                std::vector<view::Layer>& layers) {
+  if (points.size() < 2) return;
+  std::vector<double> way{0};
+  for (const double length : lengths) way.push_back(way.back() + length);
+  view::Motion& motion = layers.front().motion;
+  view::Polyline& line = layers.back().lines.emplace_back(view::Polyline{"path", {}, kPath});
+  const view::Point begin = to_double(points.front());
+  if (turn) motion.pivot = begin;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const view::Point here = to_double(points[i]);
+    line.points.push_back(here);
+    if (i > 0 && way[i] == way[i - 1]) continue;  // times must increase
+    motion.times.push_back(way.back() > 0 ? kPlaySeconds * way[i] / way.back() : 0);
+    motion.offsets.push_back({here[0] - begin[0], here[1] - begin[1], here[2] - begin[2]});
+    if (turn) motion.turns.push_back(turn(i));
+  }
+}
+
 std::vector<view::Layer> view_layers(const Answer& answer, const Scene& scene, const FreeSpace& free) {
   std::vector<view::Layer> layers = layers_of(parts_of(answer, scene, free));
   for (view::Layer& layer : layers) {
     if (layer.name == kTightName) layer.lines = tight_lines(free);
   }
-  if (answer.path && answer.path->points.size() > 1) {
-    layers.front().motion = motion_along(*answer.path);
-    view::Polyline line{"path", {}, kPath};
-    for (const Rational3& point : answer.path->points) line.points.push_back(to_double(point));
-    layers.back().lines.push_back(std::move(line));
-  }
+  if (answer.path) move_along(answer.path->points, lengths_of(*answer.path), {}, layers);
   return layers;
 }
 
 bool is_view_file(const std::string& file) {
-  const std::string extension = lower_extension_of(file);
-  return extension == ".html" || extension == ".glb";
+  const std::string extension = lower_extension(file);
+  return extension == "html" || extension == "glb";
 }
 
 void write_outputs(const Arguments& a, const std::string& title,
@@ -149,7 +140,7 @@ void write_outputs(const Arguments& a, const std::string& title,
   view::PageOptions options;
   options.title = title;
   for (const std::string& file : views) {
-    if (lower_extension_of(file) == ".glb") {
+    if (lower_extension(file) == "glb") {
       view::write_glb(shown, file);
     } else {
       view::write_page(shown, file, options);

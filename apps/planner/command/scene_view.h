@@ -3,6 +3,7 @@
 // A scene and its answer to look at: pages and glTF files in which the robot moves.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -10,7 +11,7 @@
 
 #include "apps/planner/command/arguments.h"
 #include "apps/planner/command/report.h"
-#include "nef/view/layer.h"
+#include "apps/view/layer.h"
 
 namespace nef::planner {
 
@@ -23,7 +24,7 @@ inline view::Point to_double(const Rational3& p) {
 }
 
 /// A set with its place in the page.
-struct ViewPart {
+struct ShownSet {
   std::string name;
   Polyhedron set;
   view::Color color;
@@ -31,7 +32,14 @@ struct ViewPart {
   bool visible = true;
 };
 /// A layer for each part. Unbounded ones are cut by one box in which the visible ones are large.
-std::vector<view::Layer> layers_of(const std::vector<ViewPart>& parts);
+std::vector<view::Layer> layers_of(const std::vector<ShownSet>& parts);
+
+/// The turn at a way-point, from the first one on: a unit quaternion w x y z.
+using TurnAt = std::function<std::array<double, 4>(std::size_t)>;
+/// Lets the first layer move along a path of several points, kPlaySeconds long, and draws the path in the last one. The
+/// time between two points is proportional to its entry in `lengths`.
+void move_along(const std::vector<Rational3>& points, const std::vector<double>& lengths, const TurnAt& turn,
+                std::vector<view::Layer>& layers);
 
 /// Layers: the robot (with a motion along the path if there is one, kPlaySeconds long at constant speed; else at the
 /// start), the robot at the goal, the obstacles (see-through), the tight passages, the free space (not shown at

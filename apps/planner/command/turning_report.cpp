@@ -5,19 +5,17 @@
 // reader checks the shape of the JSON and leaves the truth to `complaint_about`.
 #include "apps/planner/command/turning_report.h"
 
-#include "apps/planner/clearance/timing.h"
 #include "apps/planner/command/report.h"
+#include "apps/program/exact_json.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/number_text.h"
 #include "nef/number/floor.h"
-#include "nef/program/exact_json.h"
 
 namespace nef::planner {
 namespace {
 
 using nlohmann::json;
-using Status = TurningAnswer::Status;
 
 // Exactly, and for people.
 json turn_json(const Turn& turn, const TurningAxis& axis) {
@@ -42,12 +40,6 @@ json axis_json(const Rational3& axis) {
     if (axis[k] == 1 && axis[(k + 1) % 3] == 0 && axis[(k + 2) % 3] == 0) return std::string(1, "xyz"[k]);
   }
   return exact_json(axis);
-}
-
-json points_json(const std::vector<Rational3>& points) {
-  json result = json::array();
-  for (const Rational3& point : points) result.push_back(exact_json(point));
-  return result;
 }
 
 std::vector<Rational3> points_of(const json& value, const std::string& what) {
@@ -77,37 +69,9 @@ const json& list_in(const json& value, const char* key, const std::string& what)
 
 }  // namespace
 
-const char* name_of(Status status) {
-  switch (status) {
-    case Status::kPath:
-      return "path";
-    case Status::kInfeasible:
-      return "infeasible";
-    case Status::kInvalidStart:
-      return "invalid_start";
-    case Status::kInvalidGoal:
-      return "invalid_goal";
-    default:
-      return "undecided";
-  }
-}
-
-int exit_code_of(Status status) {
-  switch (status) {
-    case Status::kPath:
-      return 0;
-    case Status::kInfeasible:
-      return 1;
-    case Status::kUndecided:
-      return 5;
-    default:
-      return 3;
-  }
-}
-
 json turning_json(const TurningAnswer& answer, const Scene& scene, const TurningAxis& axis) {
   json result{{"scene", scene.name},
-              {"status", name_of(answer.status)},
+              {"status", status_name(answer.status)},
               {"motions", kTranslationAndTurning},
               {"cells", answer.cells},
               {"cells_looked_at", answer.looked_at},
@@ -134,17 +98,6 @@ std::string turning_text(const TurningAnswer& answer, const TurningAxis& axis) {
       out += ' ';
     }
     append_number(out, axis.degrees_of(pose.turn));
-    out += '\n';
-  }
-  return out;
-}
-
-std::string turning_csv(const TurningAnswer& answer, const TurningAxis& axis, const std::vector<double>& times) {
-  std::string out = "t,x,y,z,degrees\n";
-  for (const std::size_t i : distinct_times(times)) {
-    append_number(out, times[i]);
-    for (const Rational& x : answer.path[i].position) append_number(out += ',', nearest_double(x));
-    append_number(out += ',', axis.degrees_of(answer.path[i].turn));
     out += '\n';
   }
   return out;

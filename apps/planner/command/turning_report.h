@@ -10,18 +10,10 @@
 
 namespace nef::planner {
 
-/// "path", "infeasible", "undecided", "invalid_start", "invalid_goal".
-const char* name_of(TurningAnswer::Status status);
-/// 0 path, 1 infeasible, 3 invalid start or goal, 5 undecided.
-int exit_code_of(TurningAnswer::Status status);
-
 /// All keys of the report.
 nlohmann::json turning_json(const TurningAnswer& answer, const Scene& scene, const TurningAxis& axis);
 /// x y z degrees in doubles, a way-point a line.
 std::string turning_text(const TurningAnswer& answer, const TurningAxis& axis);
-
-/// t,x,y,z,degrees, a way-point a line.
-std::string turning_csv(const TurningAnswer& answer, const TurningAxis& axis, const std::vector<double>& times);
 
 /// The proof in a report. Throws InputError if it has none, or a broken one.
 TurningProof read_turning_proof(const std::string& file);

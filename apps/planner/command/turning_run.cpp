@@ -1,45 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/command/turning_run.h"
 
-#include <filesystem>
 #include <iostream>
 
 #include "apps/planner/command/clearance_run.h"
 #include "apps/planner/command/ompl_runs.h"
+#include "apps/planner/command/proof_run.h"
 #include "apps/planner/command/report.h"
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/command/turning_report.h"
 #include "apps/planner/command/turning_view.h"
+#include "apps/program/run_report.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
-#include "nef/program/run_report.h"
+#include "nef/io/file_bytes.h"
 
 namespace nef::planner {
 namespace {
 
-void check_turning_options(const Arguments& a) {
-  const bool other = a.tight || !a.given_path.empty() || !a.queries.empty() || !a.benchmark.empty() ||
-                     a.path.min_dimension > 0 || a.path.clearance || a.path.raw || !a.path.thorough ||
-                     a.prefer != "short" || a.se3 || !a.proof.empty();
-  if (other) {
-    throw InputError(
-        "a scene with a rotation knows --json, --quiet, --page, -o, --max-cells, --time, --digits, --ompl and "
-        "--check-proof only");
-  }
-  if (!a.ompl.empty() && a.path.digits) {
-    throw InputError("--digits: what OMPL's planners find for a robot that turns is not rounded");
-  }
-  for (const std::string& file : a.outputs) {
-    const std::string extension = std::filesystem::path(file).extension().string();
-    if (extension != ".json" && extension != ".txt" && extension != ".csv" && !is_view_file(file)) {
-      throw InputError("-o " + file +
-                       ": for a scene with a rotation the extension must be .json, .txt, .csv, .glb or .html");
-    }
-  }
-}
-
 void print(const Arguments& a, const TurningAnswer& answer, const TurningAxis& axis) {
-  std::cout << name_of(answer.status);
+  std::cout << status_name(answer.status);
   if (a.ompl.empty()) std::cout << ", " << answer.cells << " cells of angles";
   if (answer.status == TurningAnswer::Status::kUndecided) {
     std::cout << "; open:";
@@ -56,22 +36,20 @@ int check_proof(const Arguments& a, const Scene& scene) {
   const Stopwatch watch;
   const TurningProof proof = read_turning_proof(a.check_proof);
   const std::optional<std::string> complaint = complaint_about(proof, scene, question_of(scene));
-  if (a.json) {
-    nlohmann::json report{{"scene", scene.name}, {"holds", !complaint}, {"cells", proof.cells.size()}};
-    if (complaint) report["complaint"] = *complaint;
-    std::cout << report_text(run_report("check_proof", report, {{"op", watch.seconds(), {}}}, scene.messages));
-  } else if (!a.quiet) {
-    std::cout << (complaint ? "the proof does not hold: " + *complaint
-                            : "the proof holds, " + std::to_string(proof.cells.size()) + " cells of angles")
-              << '\n';
-  }
-  return complaint ? 1 : 0;
+  const std::size_t cells = proof.cells.size();
+  return tell_check(a, scene, complaint, {{"cells", cells}}, ", " + std::to_string(cells) + " cells of angles", watch);
 }
 
 }  // namespace
 
 int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& widest) {
-  check_turning_options(a);
+  exclude(a, "a scene with a rotation",
+          {"--tight", "--path", "--queries", "--benchmark", "--min-dimension", "--clearance", "--raw", "--quick",
+           "--prefer", "--se3", "--proof"});
+  require_extensions(a, "for a scene with a rotation", {"json", "txt", "csv", "glb", "html"});
+  if (!a.ompl.empty() && a.path.digits) {
+    throw InputError("--digits: what OMPL's planners find for a robot that turns is not rounded");
+  }
   if (!a.check_proof.empty()) return check_proof(a, scene);
   const Stopwatch watch;
   TurningLimits limits;
@@ -83,26 +61,31 @@ int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& wi
       a.ompl.empty() ? find_turning_path(scene, question, limits) : run_turning_ompl(scene, a.ompl, a.seconds);
   nlohmann::json report = turning_json(answer, scene, question.axis);
   std::vector<double> times;
-  if (!answer.path.empty() && a.limits.speed > 0) times = times_along(answer.path, scene, question.axis, a.limits);
+  if (!answer.path.empty() && a.limits.speed > 0)
+    times = times_of(lengths_of(answer.path, scene.robot, question.axis), a.limits);
   if (!times.empty()) report["times_s"] = times;
   if (!widest.is_null()) report["widest"] = widest;
-  const std::string text = report_text(run_report("turning", report, {{"op", watch.seconds(), {}}}, scene.messages));
+  std::string text = report_text(run_report("turning", report, {{"op", watch.seconds(), {}}}, scene.messages));
   // The report whatever the answer; other formats hold a path.
   const auto rendered = [&](const std::string& file) -> std::optional<std::string> {
-    const std::string extension = std::filesystem::path(file).extension().string();
-    if (extension == ".json") return text;
+    const std::string extension = lower_extension(file);
+    if (extension == "json") return text;
     if (answer.status != TurningAnswer::Status::kPath) return std::nullopt;
-    return extension == ".csv" ? turning_csv(answer, question.axis, times) : turning_text(answer, question.axis);
+    if (extension != "csv") return turning_text(answer, question.axis);
+    return timed_text("x,y,z,degrees", times, [&](std::size_t i) {
+      const Vector3d at = to_vector(answer.path[i].position);
+      return std::vector<double>{at[0], at[1], at[2], question.axis.degrees_of(answer.path[i].turn)};
+    });
   };
   write_outputs(a, scene.name, rendered, [&] { return turning_layers(answer, scene, question); });
-  if (a.json) {
-    std::cout << text;
-  } else if (!a.quiet) {
+  const auto print_answer = [&] {
     if (!widest.is_null()) std::cout << widest_text(widest);
     print(a, answer, question.axis);
-  }
+  };
+  print_result(
+      a, [&] { return text; }, print_answer);
   const bool no_answer = !a.ompl.empty() && answer.status == TurningAnswer::Status::kUndecided;
-  return no_answer ? 4 : exit_code_of(answer.status);
+  return no_answer ? 4 : exit_code(answer.status);
 }
 
 }  // namespace nef::planner

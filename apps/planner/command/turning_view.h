@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/planner/turning/turning_search.h"
-#include "nef/view/layer.h"
+#include "apps/view/layer.h"
 
 namespace nef::planner {
 

@@ -44,7 +44,7 @@ double squared_to_box(const Vector3d& p, const Box& box) {
 
 ClearanceField::ClearanceField(const FreeSpace& free) {
   const Complex& c = free.complex();
-  const Walls& walls = free.zones().walls();
+  const Walls& walls = free.roadmap().walls();
   for (const Wall& wall : walls.walls()) {
     const CellId cell = free.tree().leaves()[wall.on].cell;
     if (cell == kNoCell) continue;

@@ -41,16 +41,16 @@ class Crossings {
   /// segment surely is not.
   bool find(const Allowed* allowed = nullptr) {
     allowed_ = allowed;
-    free_.items().for_each_along(from_, to_, [&](const ItemTree::Item& item) {
+    free_.items().for_each_along(from_, to_, [&](const ItemRef& item) {
       switch (item.kind) {
-        case ItemTree::Kind::kFacet:
-          facet(FacetId{item.index});
+        case ItemRef::Kind::kFacet:
+          facet(item.facet());
           break;
-        case ItemTree::Kind::kEdge:
-          edge(HalfedgeId{item.index});
+        case ItemRef::Kind::kEdge:
+          edge(item.halfedge());
           break;
         default:
-          vertex(VertexId{item.index});
+          vertex(item.vertex());
       }
       return !blocked_;
     });
@@ -75,8 +75,8 @@ class Crossings {
     const Approximation form_a = pa_.form(complex_.planes, facet.plane);
     const Approximation form_b = pb_.form(complex_.planes, facet.plane);
     if (form_a.sign().value_or(0) * form_b.sign().value_or(0) > 0) return;
-    const InFacet place = place_in_facet(complex_, facet, crossing_point(from_, to_, form_a, form_b));
-    if (place == InFacet::kOutside) return;
+    const InFacet where = in_facet(complex_, facet, crossing_point(from_, to_, form_a, form_b));
+    if (where == InFacet::kOutside) return;
     const int at_a = pa_.side(complex_.planes, facet.plane);
     const int at_b = pb_.side(complex_.planes, facet.plane);
     if (at_a * at_b > 0) return;
@@ -86,7 +86,7 @@ class Crossings {
       return;
     }
     Crossing crossing;
-    if (place == InFacet::kInside && at_a * at_b < 0 && facet.isolated_count == 0) {
+    if (where == InFacet::kInside && at_a * at_b < 0 && facet.isolated_count == 0) {
       crossing.on = free_.cells().facet(f);
       crossing.before = free_.cells().volume(at_a > 0 ? facet.volume_above : facet.volume_below);
       crossing.after = free_.cells().volume(at_a > 0 ? facet.volume_below : facet.volume_above);
@@ -152,10 +152,7 @@ class Crossings {
 // Visits the parts between and at the crossings.
 void walk(const FreeSpace& free, const Rational3& a, const Rational3& b, const std::vector<Crossing>& crossings,
           const std::function<bool(const DirectPart&)>& visit) {
-  const auto cell_at = [&](const Rational& t) {
-    return free.locate(
-        ExactPoint(Rational3{a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])}));
-  };
+  const auto cell_at = [&](const Rational& t) { return free.locate(ExactPoint(point_between(a, b, t))); };
   const Rational zero(0);
   const Rational one(1);
   const Crossing start{zero};

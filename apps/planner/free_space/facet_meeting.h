@@ -13,14 +13,11 @@
 
 namespace nef::planner {
 
-/// A point known by doubles.
-using RoughPoint = std::array<Approximation, 3>;
-
 /// The point of the segment `from` + t (`to` - `from`) in which a linear form vanishes that has these values at its
 /// ends; nothing is known of it if the values do not tell them apart for sure. `from` and `to` are within 2^-53
 /// relative of the truth.
-RoughPoint crossing_point(const Vector3d& from, const Vector3d& to, const Approximation& form_at_from,
-                          const Approximation& form_at_to);
+Approximation3 crossing_point(const Vector3d& from, const Vector3d& to, const Approximation& form_at_from,
+                              const Approximation& form_at_to);
 
 /// Where a point lies that is in the plane of a facet.
 enum class InFacet : std::uint8_t {
@@ -29,6 +26,6 @@ enum class InFacet : std::uint8_t {
   kUnsure,
 };
 /// By counting edges beside the point. O(corners).
-InFacet place_in_facet(const Complex& complex, const Facet& facet, const RoughPoint& point);
+InFacet in_facet(const Complex& complex, const Facet& facet, const Approximation3& point);
 
 }  // namespace nef::planner

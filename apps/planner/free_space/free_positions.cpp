@@ -12,30 +12,13 @@
 #include <cmath>
 
 #include "apps/minkowski/minkowski.h"
+#include "apps/planner/scene/reachable_part.h"
 #include "nef/base/error.h"
 #include "nef/base/monitor.h"
 #include "nef/complex/item_boxes.h"
 
 namespace nef::planner {
 namespace {
-
-// An unbounded obstacle, cut to what a robot in the box can reach, with a margin so that the cuts
-// stay away from it.
-Polyhedron bounded_obstacle(const Polyhedron& obstacle, const Scene& scene, std::size_t index, const Monitor& monitor) {
-  if (obstacle.is_bounded()) return obstacle;
-  if (!scene.box) {
-    throw InputError("obstacle " + std::to_string(index) + " (" + scene.obstacle_names[index] +
-                     ") is unbounded: give the scene a box");
-  }
-  const std::array<Rational3, 2> robot = *bounding_box(scene.robot);
-  Rational3 low = (*scene.box)[0];
-  Rational3 high = (*scene.box)[1];
-  for (std::size_t i = 0; i < 3; ++i) {
-    low[i] += robot[0][i] - 1;
-    high[i] += robot[1][i] + 1;
-  }
-  return intersect(obstacle, make_box(low, high, monitor), 1, monitor);
-}
 
 bool all_regular(const Scene& scene, const std::vector<Polyhedron>& obstacles) {
   if (!scene.robot.is_regular()) return false;
@@ -47,7 +30,6 @@ bool all_regular(const Scene& scene, const std::vector<Polyhedron>& obstacles) {
 
 minkowski::MinkowskiOptions minkowski_options(const BuildOptions& build, const Monitor& monitor) {
   minkowski::MinkowskiOptions options;
-  options.threads = build.threads;
   options.progress = [&build](std::size_t done, std::size_t total) {
     if (build.progress) build.progress("configuration space", done, total);
     return true;
@@ -102,7 +84,8 @@ Polyhedron watched_positions(const Scene& scene, const BuildOptions& build, cons
   require_no_rotation(scene);
   std::vector<Polyhedron> obstacles;
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
-    obstacles.push_back(bounded_obstacle(scene.obstacles[i], scene, i, monitor));
+    obstacles.push_back(reachable_part(scene.obstacles[i], scene, monitor,
+                                       "obstacle " + std::to_string(i) + " (" + scene.obstacle_names[i] + ")"));
   }
   const minkowski::MinkowskiOptions options = minkowski_options(build, monitor);
   if (scene.contact == ContactRule::kAllow) {
@@ -114,17 +97,17 @@ Polyhedron watched_positions(const Scene& scene, const BuildOptions& build, cons
     // sum is the interior of the complement of the open one.
     free = interior(minkowski::configuration_space(scene.robot, obstacles, std::nullopt, options), monitor);
   } else {
-    free = complement(minkowski::minkowski_sum(unite_all(obstacles, build.threads, monitor),
-                                               minkowski::negate(scene.robot, monitor), options));
+    free = complement(
+        minkowski::minkowski_sum(unite_all(obstacles, monitor), minkowski::negate(scene.robot, monitor), options));
   }
-  return scene.box ? intersect(free, make_box((*scene.box)[0], (*scene.box)[1], monitor), 1, monitor) : free;
+  return scene.box ? intersect(free, make_box((*scene.box)[0], (*scene.box)[1], monitor), monitor) : free;
 }
 
 // What only one obstacle forbids: free for those near it, not free for it; others do not matter there.
 Polyhedron forbidden_by_one(const Scene& scene, std::size_t index, const BuildOptions& options,
                             const Monitor& monitor) {
   return subtract(watched_positions(with_only(scene, obstacles_near(scene, index)), options, monitor),
-                  watched_positions(with_only(scene, {index}), options, monitor), 1, monitor);
+                  watched_positions(with_only(scene, {index}), options, monitor), monitor);
 }
 
 Polyhedron free_of_one(const Scene& scene, const Polyhedron& obstacle, const BuildOptions& options,
@@ -145,14 +128,14 @@ Polyhedron with_obstacle(const Scene& scene, const Polyhedron& free, const Polyh
                          const BuildOptions& options) {
   NEF_ASSERT(obstacles_are_independent(scene));
   const StopQuestion question(options.stop, options.monitor);
-  return intersect(free, free_of_one(scene, obstacle, options, question.monitor()), 1, question.monitor());
+  return intersect(free, free_of_one(scene, obstacle, options, question.monitor()), question.monitor());
 }
 
 Polyhedron without_obstacle(const Scene& scene, const Polyhedron& free, std::size_t index,
                             const BuildOptions& options) {
   NEF_ASSERT(obstacles_are_independent(scene));
   const StopQuestion question(options.stop, options.monitor);
-  return unite(free, forbidden_by_one(scene, index, options, question.monitor()), 1, question.monitor());
+  return unite(free, forbidden_by_one(scene, index, options, question.monitor()), question.monitor());
 }
 
 // One operation with all of free space: what comes free is apart from it, what no longer is free a part of it.
@@ -162,9 +145,9 @@ Polyhedron with_obstacle_moved(const Scene& scene, const Polyhedron& free, std::
   const StopQuestion question(options.stop, options.monitor);
   const Monitor& monitor = question.monitor();
   const Polyhedron free_of_moved = free_of_one(scene, moved, options, monitor);
-  const Polyhedron gained = intersect(forbidden_by_one(scene, index, options, monitor), free_of_moved, 1, monitor);
-  const Polyhedron lost = subtract(free, free_of_moved, 1, monitor);
-  return symmetric_difference(free, unite(gained, lost, 1, monitor), 1, monitor);
+  const Polyhedron gained = intersect(forbidden_by_one(scene, index, options, monitor), free_of_moved, monitor);
+  const Polyhedron lost = subtract(free, free_of_moved, monitor);
+  return symmetric_difference(free, unite(gained, lost, monitor), monitor);
 }
 
 Polyhedron free_positions(const Scene& scene, const BuildOptions& build) {

@@ -17,8 +17,7 @@ using Progress = std::function<void(const std::string& phase, std::size_t done, 
 
 /// How a free space is computed.
 struct BuildOptions {
-  unsigned threads = 1;  ///< 0: as many as the machine has; the result does not depend on it
-  Progress progress;     ///< may be empty
+  Progress progress;  ///< may be empty
   /// If set, asked now and then; once it says true, free_positions throws Interrupted.
   std::function<bool()> stop;
   Monitor monitor = {};  ///< who watches, too; what it refers to must outlive the call

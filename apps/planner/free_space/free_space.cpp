@@ -21,12 +21,12 @@ FreeSpace::FreeSpace(Polyhedron free) : free_(std::move(free)), cells_(free_.com
   incidences_ = Incidences(complex(), cells_, free_cells);
   find_components(free_cells);
   find_passages();
-  find_touching_rooms();
+  find_touching_volumes();
 }
 
 FreeSpace::Partition::Partition(const FreeSpace& free, const Monitor& monitor)
     : tree(free.complex(), free.cells(), monitor),
-      zones(free.complex(), free.cells(), tree, monitor, [&free](CellId cell) { return free.is_free(cell); }),
+      roadmap(free.complex(), free.cells(), tree, monitor, [&free](CellId cell) { return free.is_free(cell); }),
       seconds(watch.seconds()) {}
 
 const FreeSpace::Partition& FreeSpace::partition(const Monitor& monitor) const {
@@ -157,6 +157,13 @@ std::vector<Rational3> FreeSpace::vertices(CellId cell) const {
       break;
   }
   return result;
+}
+
+Rational3 FreeSpace::point_in(CellId cell, const Monitor& monitor) const {
+  if (complex().vertex_count() == 0) return {};  // all of space
+  if (cells_.dimension(cell) == 0) return vertices(cell).front();
+  build_roadmap(monitor);
+  return roadmap().interior_point(roadmap().zone_in(cell));
 }
 
 std::string FreeSpace::name(CellId cell) const {

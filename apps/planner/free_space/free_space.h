@@ -16,8 +16,8 @@
 #include "apps/planner/free_space/incidences.h"
 #include "apps/planner/free_space/item_tree.h"
 #include "apps/planner/partition/cells.h"
+#include "apps/planner/partition/roadmap.h"
 #include "apps/planner/partition/space_tree.h"
-#include "apps/planner/partition/zones.h"
 #include "nef/base/monitor.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/polyhedron.h"
@@ -38,13 +38,13 @@ struct Thinness {
                      ///< cells of start and goal exempt
 };
 
-/// A place where different volumes touch without any passage between them: a connected set of free edges and
+/// Different volumes that touch without any passage between them: a connected set of free edges and
 /// vertices, around each of which lie at least two of the volumes.
-struct TouchingRooms {
+struct TouchingVolumes {
   int dimension = 0;  ///< of its largest cell: 1 or 0
   std::uint32_t component = 0;
   std::vector<CellId> cells;
-  std::vector<CellId> rooms;  ///< the volumes
+  std::vector<CellId> volumes;  ///< the volumes
 };
 
 /// A tight passage: a component of F \ closure(interior(F)). The robot touches obstacles on
@@ -52,13 +52,13 @@ struct TouchingRooms {
 /// space).
 struct TightPassage {
   int dimension = 0;  ///< of its largest cell: 2, 1 or 0
-  /// The best way through it, from one room to another: T and J of its cells and mouths. Nothing where it joins fewer
-  /// than two rooms.
+  /// The best way through it, from one volume to another: T and J of its cells and mouths. Nothing where it joins fewer
+  /// than two volumes.
   std::optional<Thinness> bottleneck;
   std::uint32_t component = 0;
   std::vector<CellId> cells;
-  std::vector<CellId> mouths;  ///< cells of the rest of F that touch it, from which one enters
-  std::vector<CellId> rooms;   ///< the volumes that the mouths belong to
+  std::vector<CellId> mouths;   ///< cells of the rest of F that touch it, from which one enters
+  std::vector<CellId> volumes;  ///< the volumes that the mouths belong to
 };
 
 /// The truth about where the reference point may be, in two stages: the cells, how they touch, components and passages
@@ -87,7 +87,7 @@ class FreeSpace {
     return ready == nullptr ? 0 : ready->seconds;
   }
   [[nodiscard]] const SpaceTree& tree() const { return partition({}).tree; }
-  [[nodiscard]] const Zones& zones() const { return partition({}).zones; }
+  [[nodiscard]] const Roadmap& roadmap() const { return partition({}).roadmap; }
   /// The boundary's items by where they are, made when first asked for: O(n log n), far cheaper than the partition.
   [[nodiscard]] const ItemTree& items() const;
   /// Cubes of space that no boundary enters, made when first asked for: O(n).
@@ -105,10 +105,10 @@ class FreeSpace {
 
   [[nodiscard]] std::span<const Component> components() const { return components_; }
   [[nodiscard]] std::span<const TightPassage> passages() const { return passages_; }
-  [[nodiscard]] std::span<const TouchingRooms> touching_rooms() const { return touching_; }
+  [[nodiscard]] std::span<const TouchingVolumes> touching_volumes() const { return touching_; }
 
   /// The corners of a box that holds the boundary with room to spare. O(n).
-  [[nodiscard]] std::array<Rational3, 2> bounds() const { return room_around(complex()); }
+  [[nodiscard]] std::array<Rational3, 2> bounds() const { return padded_box(complex()); }
 
   /// The cell of a point: O(log n) expected; with the roadmap about a microsecond or less for doubles.
   [[nodiscard]] CellId locate(const ExactPoint& point) const;
@@ -120,6 +120,9 @@ class FreeSpace {
   /// Vertices of a cell, in boundary order of the first cycle for a facet; none for a volume.
   [[nodiscard]] std::vector<Rational3> vertices(CellId cell) const;
 
+  /// A point of a free cell. Needs the roadmap, unless the cell is a vertex or all of space.
+  [[nodiscard]] Rational3 point_in(CellId cell, const Monitor& monitor) const;
+
   /// A cell as people read it: "edge 3".
   [[nodiscard]] std::string name(CellId cell) const;
 
@@ -130,7 +133,7 @@ class FreeSpace {
     Partition(const FreeSpace& free, const Monitor& monitor);
     Stopwatch watch;
     SpaceTree tree;
-    Zones zones;
+    Roadmap roadmap;
     double seconds;
   };
   const Partition& partition(const Monitor& monitor) const;
@@ -139,8 +142,8 @@ class FreeSpace {
   void find_mouths(TightPassage& passage) const;
   [[nodiscard]] std::optional<Thinness> bottleneck(const TightPassage& passage) const;
   template <typename Allowed>
-  [[nodiscard]] bool joins_rooms(const TightPassage& passage, const Allowed& allowed) const;
-  void find_touching_rooms();
+  [[nodiscard]] bool joins_volumes(const TightPassage& passage, const Allowed& allowed) const;
+  void find_touching_volumes();
   template <typename Allowed>
   [[nodiscard]] bool connected(CellId start, CellId goal, const Allowed& allowed) const;
 
@@ -152,7 +155,7 @@ class FreeSpace {
   std::vector<std::uint32_t> passage_;
   std::vector<Component> components_;
   std::vector<TightPassage> passages_;
-  std::vector<TouchingRooms> touching_;
+  std::vector<TouchingVolumes> touching_;
   mutable std::mutex building_;
   mutable std::unique_ptr<const Partition> partition_;
   mutable std::atomic<const Partition*> ready_{nullptr};

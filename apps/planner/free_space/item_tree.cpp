@@ -12,18 +12,18 @@ ItemTree::ItemTree(const Complex& complex) {
   std::vector<Box> boxes;
   items_.reserve(complex.facet_count());
   boxes.reserve(complex.facet_count());
-  const auto push = [&](const Item& item, const Box& box) {
+  const auto push = [&](const ItemRef& item, const Box& box) {
     items_.push_back(item);
     boxes.push_back(box);
   };
   for (const FacetId f : complex.facets.ids()) {
-    push({Kind::kFacet, f.index()}, facet_box(complex, complex.facets[f]));
+    push(ItemRef(f), facet_box(complex, complex.facets[f]));
   }
-  for (const HalfedgeId h : complex.bare_edges()) push({Kind::kEdge, h.index()}, edge_box(complex, h));
+  for (const HalfedgeId h : complex.bare_edges()) push(ItemRef(h), edge_box(complex, h));
   for (const VertexId v : complex.vertex_ids()) {
     const SphereMapView map = complex.sphere_map(v);
     if (!map.svertices.empty() || !map.sloops.empty()) continue;
-    push({Kind::kVertex, v.index()}, vertex_box(complex, v));
+    push(ItemRef(v), vertex_box(complex, v));
   }
   tree_ = BoxTree(boxes);
 }

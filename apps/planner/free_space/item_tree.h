@@ -9,6 +9,7 @@
 
 #include "apps/planner/free_space/vectors.h"
 #include "nef/complex/complex.h"
+#include "nef/complex/item_ref.h"
 #include "nef/geometry/box_tree.h"
 
 namespace nef::planner {
@@ -17,12 +18,6 @@ namespace nef::planner {
 /// lies in the box of one of them. For complexes without infimaximal box. O(n log n) to build; keeps no reference.
 class ItemTree {
  public:
-  enum class Kind : std::uint8_t { kFacet, kEdge, kVertex };
-  struct Item {
-    Kind kind = Kind::kFacet;
-    std::uint32_t index = 0;  ///< facet, halfedge or vertex
-  };
-
   explicit ItemTree(const Complex& complex);
 
   /// Calls visit(item) for all items whose boxes meet the segment, and maybe a few others, until it returns false.
@@ -53,7 +48,7 @@ class ItemTree {
     Vector3d size_;
   };
 
-  std::vector<Item> items_;
+  std::vector<ItemRef> items_;
   BoxTree tree_;
 };
 

@@ -22,6 +22,13 @@ bool segment_allowed(const FreeSpace& free, const CellFilter& filter, const Rati
   return allowed;
 }
 
+bool way_allowed(const FreeSpace& free, const CellFilter& filter, std::span<const Rational3> way) {
+  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
+    if (!segment_allowed(free, filter, way[i], way[i + 1])) return false;
+  }
+  return true;
+}
+
 std::optional<Contact> first_contact(const FreeSpace& free, const ExactPoint& a, const ExactPoint& b) {
   const ExactSegment segment(free.tree().planes(), a, b);
   std::optional<Contact> contact;
@@ -47,8 +54,7 @@ std::optional<Rational3> first_blocked_position(const FreeSpace& free, const Rat
   if (!free.has_roadmap()) {
     walk_directly(free, a, b, [&](const DirectPart& part) {
       if (free.is_free(part.cell)) return true;
-      const Rational t = (part.begin + part.end) / 2;
-      result = Rational3{a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
+      result = point_between(a, b, (part.begin + part.end) / 2);
       return false;
     });
     return result;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "apps/planner/free_space/free_space.h"
@@ -16,6 +17,7 @@ class CellFilter {
   /// All free cells.
   explicit CellFilter(const FreeSpace& free);
   void forbid(CellId cell) { allowed_[cell] = false; }
+  void allow(CellId cell) { allowed_[cell] = true; }
   [[nodiscard]] bool operator()(CellId cell) const { return cell != kNoCell && allowed_[cell]; }
 
  private:
@@ -34,6 +36,9 @@ struct Contact {
 };
 /// The first part of the segment that is not free; nothing if there is none.
 std::optional<Contact> first_contact(const FreeSpace& free, const ExactPoint& a, const ExactPoint& b);
+
+/// True if all segments of a way are.
+bool way_allowed(const FreeSpace& free, const CellFilter& filter, std::span<const Rational3> way);
 
 /// A position on the first part of the closed segment that is not free; nothing if all of it is free.
 std::optional<Rational3> first_blocked_position(const FreeSpace& free, const Rational3& a, const Rational3& b);

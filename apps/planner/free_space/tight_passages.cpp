@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Tight passages, their mouths and bottlenecks, and rooms that only touch. A passage is a connected set of free cells
-// that no free volume touches. Its bottleneck is found by searching it from room to room with cells of local dimension
-// (T) or dimension (J) k or more, for k = 2 and 1. Touching rooms are connected sets of edges and vertices with two
-// volumes around each. Linear in the incidences, times the logarithm of sorting.
+// Tight passages, their mouths and bottlenecks, and volumes that only touch. A passage is a connected set of free cells
+// that no free volume touches. Its bottleneck is found by searching it from volume to volume with cells of local
+// dimension (T) or dimension (J) k or more, for k = 2 and 1. Touching volumes are connected sets of edges and vertices
+// with two volumes around each. Linear in the incidences, times the logarithm of sorting.
 #include <algorithm>
 
 #include "apps/planner/free_space/free_space.h"
@@ -74,20 +74,20 @@ void FreeSpace::find_mouths(TightPassage& passage) const {
   make_unique(passage.mouths);
   for (const CellId mouth : passage.mouths) {
     for (const CellId other : neighbours(mouth)) {
-      if (cells_.dimension(other) == 3) passage.rooms.push_back(other);
+      if (cells_.dimension(other) == 3) passage.volumes.push_back(other);
     }
   }
-  make_unique(passage.rooms);
+  make_unique(passage.volumes);
 }
 
-// True if a way leads from one room to another through allowed cells of the passage and allowed mouths.
+// True if a way leads from one volume to another through allowed cells of the passage and allowed mouths.
 template <typename Allowed>
-bool FreeSpace::joins_rooms(const TightPassage& passage, const Allowed& allowed) const {
+bool FreeSpace::joins_volumes(const TightPassage& passage, const Allowed& allowed) const {
   const std::vector<CellId>& cells = passage.cells;  // ascending
   std::vector<bool> seen(cells.size(), false);
   for (std::size_t first = 0; first < cells.size(); ++first) {
     if (seen[first] || !allowed(cells[first])) continue;
-    std::vector<CellId> rooms;
+    std::vector<CellId> volumes;
     std::vector<std::size_t> queue{first};
     seen[first] = true;
     for (std::size_t next = 0; next < queue.size(); ++next) {
@@ -95,8 +95,8 @@ bool FreeSpace::joins_rooms(const TightPassage& passage, const Allowed& allowed)
         if (!allowed(other)) continue;
         const auto at = std::lower_bound(cells.begin(), cells.end(), other);
         if (at == cells.end() || *at != other) {
-          for (const CellId room : neighbours(other)) {
-            if (cells_.dimension(room) == 3) rooms.push_back(room);
+          for (const CellId volume : neighbours(other)) {
+            if (cells_.dimension(volume) == 3) volumes.push_back(volume);
           }
         } else if (const auto index = static_cast<std::size_t>(at - cells.begin()); !seen[index]) {
           seen[index] = true;
@@ -104,33 +104,33 @@ bool FreeSpace::joins_rooms(const TightPassage& passage, const Allowed& allowed)
         }
       }
     }
-    make_unique(rooms);
-    if (rooms.size() > 1) return true;
+    make_unique(volumes);
+    if (volumes.size() > 1) return true;
   }
   return false;
 }
 
 std::optional<Thinness> FreeSpace::bottleneck(const TightPassage& passage) const {
-  if (passage.rooms.size() < 2) return std::nullopt;
+  if (passage.volumes.size() < 2) return std::nullopt;
   Thinness result;
   for (int k = 2; k > 0 && result.piece == 0; --k) {
-    if (joins_rooms(passage, [&](CellId cell) { return local_dimension_[cell] >= k; })) result.piece = k;
+    if (joins_volumes(passage, [&](CellId cell) { return local_dimension_[cell] >= k; })) result.piece = k;
   }
   for (int k = 2; k > 0 && result.junction == 0; --k) {
-    if (joins_rooms(passage, [&](CellId cell) { return cells_.dimension(cell) >= k; })) result.junction = k;
+    if (joins_volumes(passage, [&](CellId cell) { return cells_.dimension(cell) >= k; })) result.junction = k;
   }
   return result;
 }
 
 // Volumes are connected open sets, so different ones around an edge or vertex meet there only.
-void FreeSpace::find_touching_rooms() {
-  const auto rooms_of = [&](CellId cell) {
-    std::vector<CellId> rooms;
+void FreeSpace::find_touching_volumes() {
+  const auto volumes_of = [&](CellId cell) {
+    std::vector<CellId> volumes;
     for (const CellId other : neighbours(cell)) {
-      if (cells_.dimension(other) == 3) rooms.push_back(other);
+      if (cells_.dimension(other) == 3) volumes.push_back(other);
     }
-    make_unique(rooms);
-    return rooms;
+    make_unique(volumes);
+    return volumes;
   };
   const auto wanted = [&](CellId cell) {
     if (!is_free(cell) || cells_.dimension(cell) > 1) return false;
@@ -145,15 +145,15 @@ void FreeSpace::find_touching_rooms() {
   std::vector<char> touching(cells_.size(), 0);
   for (CellId cell = 0; cell < cells_.size(); ++cell) touching[cell] = wanted(cell) ? 1 : 0;
   for (std::vector<CellId>& cells : connected_sets(*this, [&](CellId cell) { return touching[cell] != 0; })) {
-    TouchingRooms& place = touching_.emplace_back();
-    place.component = component_[cells.front()];
+    TouchingVolumes& touching = touching_.emplace_back();
+    touching.component = component_[cells.front()];
     for (const CellId cell : cells) {
-      place.dimension = std::max(place.dimension, cells_.dimension(cell));
-      const std::vector<CellId> rooms = rooms_of(cell);
-      place.rooms.insert(place.rooms.end(), rooms.begin(), rooms.end());
+      touching.dimension = std::max(touching.dimension, cells_.dimension(cell));
+      const std::vector<CellId> volumes = volumes_of(cell);
+      touching.volumes.insert(touching.volumes.end(), volumes.begin(), volumes.end());
     }
-    make_unique(place.rooms);
-    place.cells = std::move(cells);
+    make_unique(touching.volumes);
+    touching.cells = std::move(cells);
   }
 }
 

@@ -21,9 +21,9 @@ CellPool::CellPool(std::shared_ptr<const FreeSpace> freeSpace) : freeSpace_(std:
   const CellNumbering& numbering = freeSpace_->cells();
   for (CellId cell = 0; cell < numbering.facet(FacetId{0}); ++cell) {
     if (!freeSpace_->is_free(cell)) continue;
-    std::size_t rooms = 0;
-    for (const CellId other : freeSpace_->neighbours(cell)) rooms += numbering.dimension(other) == 3 ? 1 : 0;
-    if (rooms > 1) cells.push_back(cell);
+    std::size_t volumes = 0;
+    for (const CellId other : freeSpace_->neighbours(cell)) volumes += numbering.dimension(other) == 3 ? 1 : 0;
+    if (volumes > 1) cells.push_back(cell);
   }
   std::sort(cells.begin(), cells.end());
   cells.erase(std::unique(cells.begin(), cells.end()), cells.end());

@@ -38,7 +38,7 @@ class CellPool {
     their mouths.
 
     A set of measure zero is never met by uniform sampling, whatever the time. This sampler first draws
-    every mouth once, since a point of a room can be joined to a corridor only through the corridor's end;
+    every mouth once, since a point of a volume can be joined to a corridor only through the corridor's end;
     then a constant share of all draws is from cells of dimension 0, 1 and 2. The near variants draw a
     cell's point too if one lies within the distance. */
 class CellSampler : public ompl::base::RealVectorStateSampler {

@@ -9,6 +9,7 @@
 #include <ompl/base/spaces/RealVectorStateProjections.h>
 
 #include <algorithm>
+#include <cmath>
 #include <ostream>
 
 #include "apps/planner/ompl/cell_sampler.h"
@@ -51,6 +52,10 @@ void ExactTranslationSpace::StateType::setExact(const Rational3& position) {
   } else {
     exact_ = std::make_unique<Rational3>(position);
   }
+}
+
+bool ExactTranslationSpace::StateType::isFinite() const {
+  return std::isfinite(values[0]) && std::isfinite(values[1]) && std::isfinite(values[2]);
 }
 
 bool ExactTranslationSpace::StateType::hasExact() const {

@@ -30,6 +30,8 @@ class ExactTranslationSpace : public ompl::base::RealVectorStateSpace {
     Rational3 exact() const;
     /** \brief The position for exact questions; builds no rationals if it need not. */
     ExactPoint point() const;
+    /** \brief True if no coordinate is infinite or no number. */
+    bool isFinite() const;
     /** \brief True if rationals are there and count. */
     bool hasExact() const;
     /** \brief Forgets the rationals. */

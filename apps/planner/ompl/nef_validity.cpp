@@ -15,10 +15,7 @@ using StateType = ExactTranslationSpace::StateType;
 
 namespace {
 
-bool is_finite(const ob::State* state) {
-  const double* values = static_cast<const StateType*>(state)->values;
-  return std::isfinite(values[0]) && std::isfinite(values[1]) && std::isfinite(values[2]);
-}
+bool is_finite(const ob::State* state) { return static_cast<const StateType*>(state)->isFinite(); }
 
 }  // namespace
 

@@ -7,7 +7,6 @@
 #include "apps/planner/ompl/tight_planner.h"
 
 #include <ompl/base/goals/GoalLazySamples.h>
-#include <ompl/config.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 #include <ompl/util/Console.h>
 #include <ompl/util/Exception.h>
@@ -21,6 +20,7 @@
 #include "apps/minkowski/minkowski.h"
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/ompl/nef_validity.h"
+#include "apps/planner/ompl/own_planners.h"
 #include "nef/base/interruption.h"
 #include "nef/base/monitor.h"
 #include "nef/base/timing/stopwatch.h"
@@ -39,14 +39,6 @@ constexpr unsigned int kGoalsAtOnce = 64;
 bool is_growing(const ob::GoalSampleableRegion& region) {
   const auto* lazy = dynamic_cast<const ob::GoalLazySamples*>(&region);
   return lazy != nullptr && lazy->isSampling();
-}
-
-ob::PlannerStatus infeasible() {
-#if defined(OMPL_VERSION_VALUE) && OMPL_VERSION_VALUE >= 1006000
-  return ob::PlannerStatus::INFEASIBLE;
-#else
-  return ob::PlannerStatus::ABORT;
-#endif
 }
 
 }  // namespace
@@ -113,7 +105,7 @@ bool TightPlanner::updateFreeSpace(const std::function<bool()>& stop) {
   }
   if (!present) throw ompl::Exception(name_, "there is no free space: use a NefStateValidityChecker");
   if (present == freeSpace_) return true;
-  clearQuery();  // its places are those of another free space
+  clearQuery();  // its ends are those of another free space
   knownWay_ = std::exchange(lastWay_, {});
   if (!std::exchange(keepWay_, false)) knownWay_.clear();
   freeSpace_ = std::move(present);
@@ -143,14 +135,14 @@ void TightPlanner::setProblemDefinition(const ob::ProblemDefinitionPtr& pdef) {
   clearQuery();
 }
 
-TightPlanner::Place TightPlanner::placeOf(const ob::State* state) const {
+TightPlanner::EndPoint TightPlanner::endPointOf(const ob::State* state) const {
   const auto* exact = static_cast<const StateType*>(state);
   return {exact->exact(), freeSpace_->locate(exact->point())};
 }
 
 void TightPlanner::takeStarts() {
-  while (const ob::State* state = pis_.nextStart()) starts_.push_back(placeOf(state));
-  std::erase_if(starts_, [this](const Place& place) { return !freeSpace_->is_free(place.cell); });
+  while (const ob::State* state = pis_.nextStart()) starts_.push_back(endPointOf(state));
+  std::erase_if(starts_, [this](const EndPoint& end) { return !freeSpace_->is_free(end.cell); });
 }
 
 bool TightPlanner::takeGoals(const ob::GoalSampleableRegion& region, const ob::PlannerTerminationCondition& ptc) {
@@ -160,10 +152,10 @@ bool TightPlanner::takeGoals(const ob::GoalSampleableRegion& region, const ob::P
   for (unsigned int i = 0; i < kGoalsAtOnce && !asked_all() && (i == 0 || !ptc); ++i) {
     const ob::State* state = pis_.nextGoal();
     if (state == nullptr) continue;  // not valid
-    const Place goal = placeOf(state);
+    const EndPoint goal = endPointOf(state);
     // Further goals are taken only if none was in reach, so another one in the same cell is out of reach, too.
     const bool is_new = std::none_of(goals_.begin(), goals_.begin() + known,
-                                     [&](const Place& place) { return place.cell == goal.cell; });
+                                     [&](const EndPoint& end) { return end.cell == goal.cell; });
     if (is_new && freeSpace_->is_free(goal.cell)) goals_.push_back(goal);
   }
   return !growing && asked_all();
@@ -176,7 +168,7 @@ std::optional<ExactPath> TightPlanner::bestPath(std::size_t firstGoal, const ob:
   PathOptions options = options_;
   options.known = knownWay_;
   interrupted = false;
-  for (const Place& start : starts_) {
+  for (const EndPoint& start : starts_) {
     for (std::size_t i = firstGoal; i < goals_.size(); ++i) {
       // The first pair is always answered: it takes no longer than noticing the time.
       interrupted = ptc && (i > firstGoal || &start != &starts_.front());
@@ -213,9 +205,9 @@ ob::PlannerStatus TightPlanner::searchAnotherWay(const ob::PlannerTerminationCon
 }
 
 void TightPlanner::proveInfeasible() {
-  const auto components = [this](const std::vector<Place>& places) {
+  const auto components = [this](const std::vector<EndPoint>& places) {
     std::vector<std::uint32_t> result;
-    for (const Place& place : places) result.push_back(freeSpace_->component(place.cell));
+    for (const EndPoint& end : places) result.push_back(freeSpace_->component(end.cell));
     std::sort(result.begin(), result.end());
     result.erase(std::unique(result.begin(), result.end()), result.end());
     return result;
@@ -227,6 +219,7 @@ void TightPlanner::proveInfeasible() {
 ob::PlannerStatus TightPlanner::solve(const ob::PlannerTerminationCondition& ptc) {
   if (ptc || !updateFreeSpace([&ptc] { return ptc.eval(); })) return ob::PlannerStatus::TIMEOUT;
   checkValidity();
+  warn_of_ignored_objective(*pdef_, name_);
   const auto* region = dynamic_cast<const ob::GoalSampleableRegion*>(pdef_->getGoal().get());
   if (region == nullptr) return ob::PlannerStatus::UNRECOGNIZED_GOAL_TYPE;
   takeStarts();
@@ -264,18 +257,18 @@ ob::PlannerDataVertex TightPlanner::dataVertex(const Rational3& position) const 
 void TightPlanner::getPlannerData(ob::PlannerData& data) const {
   ob::Planner::getPlannerData(data);
   if (!freeSpace_) return;
-  const Zones& zones = freeSpace_->zones();
-  std::vector<unsigned int> middles(zones.zone_count(), ob::PlannerData::INVALID_INDEX);
-  // Zones are convex, so what is in the closure of one sees its middle.
+  const Roadmap& roadmap = freeSpace_->roadmap();
+  std::vector<unsigned int> middles(roadmap.zone_count(), ob::PlannerData::INVALID_INDEX);
+  // Roadmap are convex, so what is in the closure of one sees its middle.
   const auto join_to_middle = [&](unsigned int vertex, ZoneId zone) {
     unsigned int& middle = middles[zone];
-    if (middle == ob::PlannerData::INVALID_INDEX) middle = data.addVertex(dataVertex(zones.interior_point(zone)));
+    if (middle == ob::PlannerData::INVALID_INDEX) middle = data.addVertex(dataVertex(roadmap.interior_point(zone)));
     data.addEdge(vertex, middle);
     data.addEdge(middle, vertex);
   };
-  for (StationId s = 0; s < zones.stations().size(); ++s) {
-    const unsigned int station = data.addVertex(dataVertex(zones.point(s)));
-    for (const ZoneId zone : zones.zones_of(s)) join_to_middle(station, zone);
+  for (PortalId s = 0; s < roadmap.portals().size(); ++s) {
+    const unsigned int portal = data.addVertex(dataVertex(roadmap.point(s)));
+    for (const ZoneId zone : roadmap.zones_of(s)) join_to_middle(portal, zone);
   }
   const auto join_end = [&](unsigned int vertex, const Rational3& position) {
     const Rational3 near = freeSpace_->tree().nearest_inside(position);
@@ -285,11 +278,11 @@ void TightPlanner::getPlannerData(ob::PlannerData& data) const {
       data.addEdge(between, vertex);
       vertex = between;
     }
-    const ZoneId zone = zones.zone_at(ExactPoint(near));
-    if (!zones.stations_of(zone).empty()) join_to_middle(vertex, zone);
+    const ZoneId zone = roadmap.zone_at(ExactPoint(near));
+    if (!roadmap.portals_of(zone).empty()) join_to_middle(vertex, zone);
   };
-  for (const Place& start : starts_) join_end(data.addStartVertex(dataVertex(start.position)), start.position);
-  for (const Place& goal : goals_) join_end(data.addGoalVertex(dataVertex(goal.position)), goal.position);
+  for (const EndPoint& start : starts_) join_end(data.addStartVertex(dataVertex(start.position)), start.position);
+  for (const EndPoint& goal : goals_) join_end(data.addGoalVertex(dataVertex(goal.position)), goal.position);
 }
 
 TightPlanner::FreeSpaceBuilder free_space_builder(const Scene& scene) {

@@ -10,9 +10,9 @@
 #include <functional>
 #include <memory>
 
-#include "apps/planner/ompl/digits_parameter.h"
 #include "apps/planner/ompl/disconnection_proof.h"
 #include "apps/planner/ompl/exact_translation_space.h"
+#include "apps/planner/ompl/own_planners.h"
 #include "apps/planner/path/path.h"
 #include "apps/planner/scene/scene.h"
 
@@ -20,7 +20,7 @@ namespace nef::planner {
 
 /** \brief Complete planning for a translating robot, through passages of width zero too.
 
-    The free space is a Nef polyhedron; its cells and how they touch are the roadmap (see zones.h). A query
+    The free space is a Nef polyhedron; its cells and how they touch are the roadmap (see roadmap.h). A query
     locates start and goal and walks through the cells between them, or proves that there is no way: then the
     status is INFEASIBLE (ABORT before OMPL 1.6, which has no such status) and the problem definition holds a
     DisconnectionProof. There is no time-out while there is an answer; the termination condition is respected
@@ -59,7 +59,7 @@ class TightPlanner : public ompl::base::Planner {
   void setProblemDefinition(const ompl::base::ProblemDefinitionPtr& pdef) override;
   ompl::base::PlannerStatus solve(const ompl::base::PlannerTerminationCondition& ptc) override;
   using ompl::base::Planner::solve;
-  /** \brief The roadmap: stations and the middles of the zones they join, and the start and goal states of the last
+  /** \brief The roadmap: portals and the middles of the zones they join, and the start and goal states of the last
       query. The states belong to the planner and are freed by clear(). */
   void getPlannerData(ompl::base::PlannerData& data) const override;
 
@@ -94,7 +94,7 @@ class TightPlanner : public ompl::base::Planner {
   double getPreprocessingTime() const { return preprocessing_; }
 
  private:
-  struct Place {
+  struct EndPoint {
     Rational3 position;
     CellId cell = kNoCell;
   };
@@ -119,7 +119,7 @@ class TightPlanner : public ompl::base::Planner {
   bool isAccepted(const ExactPath& path) const;
   ompl::base::PlannerStatus searchAnotherWay(const ompl::base::PlannerTerminationCondition& ptc);
   void proveInfeasible();
-  Place placeOf(const ompl::base::State* state) const;
+  EndPoint endPointOf(const ompl::base::State* state) const;
   ompl::base::PlannerDataVertex dataVertex(const Rational3& position) const;
   void freeDataStates();
 
@@ -131,8 +131,8 @@ class TightPlanner : public ompl::base::Planner {
   std::vector<Rational3> lastWay_;   // the last answer
   std::vector<Rational3> knownWay_;  // the last one in a free space that held the present one
   double preprocessing_ = 0;
-  std::vector<Place> starts_;
-  std::vector<Place> goals_;
+  std::vector<EndPoint> starts_;
+  std::vector<EndPoint> goals_;
   std::optional<ExactPath> exactPath_;
   mutable std::vector<ompl::base::State*> dataStates_;
 };

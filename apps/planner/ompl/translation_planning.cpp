@@ -71,7 +71,7 @@ std::string TranslationPlanning::find(const std::string& file) const {
 
 bool TranslationPlanning::readMesh(const std::string& file, Polyhedron& into, bool add) {
   try {
-    const Polyhedron shape = closure(read_shape_file(find(file), &scene_.messages));
+    const Polyhedron shape = closure(read_shape_file(find(file), scene_meshes(), &scene_.messages));
     into = add ? unite(into, shape) : shape;
     changed();
     return true;

@@ -178,13 +178,9 @@ ConvexPiece plane_in_box(PlaneId plane, const std::array<PlaneId, 6>& box, const
 }
 
 Rational3 centre(const ConvexPiece& piece, const PointTable& points) {
-  Rational3 sum;
-  for (const PointId point : piece.points) {
-    const Rational3 x = points.rational(point);
-    for (std::size_t i = 0; i < 3; ++i) sum[i] += x[i];
-  }
-  for (Rational& value : sum) value /= Rational(static_cast<unsigned long>(piece.points.size()));
-  return sum;
+  std::vector<Rational3> corners;
+  for (const PointId point : piece.points) corners.push_back(points.rational(point));
+  return mean_of(corners);
 }
 
 }  // namespace nef::planner

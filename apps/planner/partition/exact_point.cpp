@@ -2,8 +2,21 @@
 #include "apps/planner/partition/exact_point.h"
 
 #include "nef/geometry/integer_vector.h"
+#include "nef/geometry/vectors.h"
 
 namespace nef::planner {
+
+Rational3 point_between(const Rational3& a, const Rational3& b, const Rational& t) {
+  return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
+}
+
+Rational3 mean_of(std::span<const Rational3> points) {
+  Rational3 sum;
+  for (const Rational3& point : points) sum = plus(sum, point);
+  for (Rational& value : sum) value /= Rational(static_cast<unsigned long>(points.size()));
+  return sum;
+}
+
 ExactPoint::ExactPoint(const Rational3& point) : known_(true) {
   Integer& w = homogeneous_[3];
   w = common_denominator(point);
@@ -57,10 +70,6 @@ Rational ExactSegment::exact(const SegmentParameter& t) const {
   return result;
 }
 
-Rational3 ExactSegment::point(const Rational& t) const {
-  const Rational3 a = a_->rational();
-  const Rational3 b = b_->rational();
-  return {a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])};
-}
+Rational3 ExactSegment::point(const Rational& t) const { return point_between(a_->rational(), b_->rational(), t); }
 
 }  // namespace nef::planner

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <span>
 
 #include "nef/geometry/plane_table.h"
 #include "nef/geometry/predicates.h"
@@ -13,6 +14,12 @@
 #include "nef/number/number.h"
 
 namespace nef::planner {
+
+/// The point a + t (b - a).
+Rational3 point_between(const Rational3& a, const Rational3& b, const Rational& t);
+
+/// The mean of some points, of which there is one at least.
+Rational3 mean_of(std::span<const Rational3> points);
 
 /// A fixed exact point. Integers are computed at the first question that needs them, so an
 /// object belongs to one thread.

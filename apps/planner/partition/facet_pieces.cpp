@@ -2,6 +2,7 @@
 #include "apps/planner/partition/facet_pieces.h"
 
 #include "nef/base/error.h"
+#include "nef/location/facet_search.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
 namespace nef::planner {
@@ -40,7 +41,9 @@ class Cutter {
 
   void cut(ConvexPiece polygon, std::vector<ConvexPiece> edges) {
     if (edges.empty()) {
-      if (facet_contains(complex_, f_, centre(polygon, points_))) out_.push_back(std::move(polygon));
+      PointTable middle;
+      const PointRef at{&middle, middle.push(centre(polygon, points_))};
+      if (locate_in_facet(complex_, f_, at, nullptr, monitor_).valid()) out_.push_back(std::move(polygon));
       return;
     }
     const PlaneId plane = edges[edges.size() / 2].q;
@@ -107,24 +110,6 @@ void append_facet_pieces(const Complex& complex, FacetId f, CellId cell, const P
   ConvexPiece whole = plane_in_box(facet.plane, box, planes, points);
   whole.cell = cell;
   Cutter(complex, f, planes, points, pieces, monitor).cut(std::move(whole), std::move(edges));
-}
-
-bool facet_contains(const Complex& complex, FacetId f, const Rational3& point) {
-  const Facet& facet = complex.facets[f];
-  std::size_t axis = 0;  // dropped: a component of the normal that is not zero
-  while (complex.planes.coefficient(facet.plane, axis).sign() == 0) ++axis;
-  const std::size_t u = (axis + 1) % 3;
-  const std::size_t v = (axis + 2) % 3;
-  bool inside = false;
-  for (const SHalfedgeId corner : complex.corners_of(facet)) {
-    const HalfedgeId halfedge = complex.corner_halfedge(corner);
-    const Rational3 a = complex.points.rational(point_of(complex.source(halfedge)));
-    const Rational3 b = complex.points.rational(point_of(complex.target(halfedge)));
-    if ((a[v] > point[v]) == (b[v] > point[v])) continue;
-    const Rational crossing = a[u] + (point[v] - a[v]) / (b[v] - a[v]) * (b[u] - a[u]);
-    if (crossing > point[u]) inside = !inside;
-  }
-  return inside;
 }
 
 }  // namespace nef::planner

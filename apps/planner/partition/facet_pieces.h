@@ -15,7 +15,4 @@ namespace nef::planner {
 void append_facet_pieces(const Complex& complex, FacetId f, CellId cell, const PlaneTable& planes, PointTable& points,
                          const std::array<PlaneId, 6>& box, std::vector<ConvexPiece>& pieces, const Monitor& monitor);
 
-/// True if the point of the facet's plane lies in the facet; it must not lie on its boundary. O(k).
-bool facet_contains(const Complex& complex, FacetId f, const Rational3& point);
-
 }  // namespace nef::planner

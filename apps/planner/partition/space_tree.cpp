@@ -50,7 +50,7 @@ LeafId SpaceTree::leaf_at(const ExactPoint& point) const {
 }
 
 // Twice as large as what it holds, and never flat.
-std::array<Rational3, 2> room_around(const Complex& complex) {
+std::array<Rational3, 2> padded_box(const Complex& complex) {
   std::array<Rational3, 2> corners;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     double least = -1;

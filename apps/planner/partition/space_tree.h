@@ -4,7 +4,7 @@
 // exactly one leaf, a convex relatively open piece of one cell of a complex.
 //
 // The tree answers all questions of motion: where is a point (O(depth) signs), which cells does a
-// segment run through (segment_walk.h), and which convex pieces make up a volume or facet (see zones.h). Splits use
+// segment run through (segment_walk.h), and which convex pieces make up a volume or facet (see roadmap.h). Splits use
 // planes of the complex, and axis-parallel ones through isolated points; a vertex, edge or facet
 // that two leaves share is never lost, since what lies in a splitting plane has a tree of its own.
 //
@@ -30,7 +30,7 @@ inline constexpr LeafId kNoLeaf = 0xffffffffU;
 using Nudge = Integer3;
 
 /// The corners of a box that holds the finite vertices of a complex with room to spare. O(n).
-std::array<Rational3, 2> room_around(const Complex& complex);
+std::array<Rational3, 2> padded_box(const Complex& complex);
 
 /// The ternary space partition of a complex without infimaximal box.
 class SpaceTree {
@@ -77,7 +77,7 @@ class SpaceTree {
   /// part of the outer volume, and so is the segment from there to the nearest point.
   [[nodiscard]] Rational3 nearest_inside(const Rational3& point) const;
 
-  /// Sets the cells of all 3-dimensional leaves; zones.h finds them out.
+  /// Sets the cells of all 3-dimensional leaves; roadmap.h finds them out.
   void set_volume(LeafId leaf, CellId volume) { t_.leaves[leaf].cell = volume; }
 
   /// The cell that holds the point.

@@ -57,7 +57,7 @@ class SpaceTreeBuilder {
 
  private:
   void make_box() {
-    const std::array<Rational3, 2> corners = room_around(complex_);
+    const std::array<Rational3, 2> corners = padded_box(complex_);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       Rational3 normal;
       normal[axis] = 1;

@@ -143,13 +143,11 @@ Walls::Walls(const Complex& complex, const CellNumbering& cells, SpaceTree& tree
 }
 
 Rational3 Walls::centre(const Wall& wall) const {
-  Rational3 sum;
+  std::vector<Rational3> corners;
   for (std::uint32_t i = 0; i < wall.point_count; ++i) {
-    const Rational3 x = w_.points.rational(w_.corners[wall.first_point + i]);
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += x[k];
+    corners.push_back(w_.points.rational(w_.corners[wall.first_point + i]));
   }
-  for (Rational& value : sum) value /= Rational(static_cast<unsigned long>(wall.point_count));
-  return sum;
+  return mean_of(corners);
 }
 
 std::array<double, 3> Walls::approximate_centre(const Wall& wall) const {

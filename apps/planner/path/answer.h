@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -11,9 +12,27 @@
 
 namespace nef::planner {
 
+/// What is known about a question.
+enum class AnswerStatus : std::uint8_t {
+  kPath,
+  kInfeasible,
+  kInvalidStart,
+  kInvalidGoal,
+  kNoQuestion,
+  kBlocked,    ///< a given path leaves free space
+  kUndecided,  ///< the search was stopped
+};
+
+/// As reports spell it: "path", "infeasible", "invalid_start", "invalid_goal", "free_space", "blocked", "undecided".
+inline const char* status_name(AnswerStatus status) {
+  constexpr std::array kNames{"path",       "infeasible", "invalid_start", "invalid_goal",
+                              "free_space", "blocked",    "undecided"};
+  return kNames[static_cast<std::size_t>(status)];
+}
+
 /// What came out of a question.
 struct Answer {
-  enum class Status : std::uint8_t { kPath, kInfeasible, kInvalidStart, kInvalidGoal, kNoQuestion, kBlocked };
+  using Status = AnswerStatus;
   Status status = Status::kNoQuestion;
   std::optional<ExactPath> path;
   std::optional<Thinness> thinness;            ///< the best T and J of any path from start to goal

@@ -24,7 +24,7 @@ void require_junctions(const FreeSpace& free, CellFilter& filter, int dimension,
   }
 }
 
-constexpr std::size_t kPlacesForWayRound = 400;
+constexpr std::size_t kMilestonesForWayRound = 400;
 
 // Where free space has so many cells, the roadmap costs a tenth of a second or more, and is made only if there is no
 // way without it.
@@ -89,7 +89,7 @@ std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start
     shortcut(free, filter, *points, options.clearance);
     if (!options.clearance) tighten(free, filter, *points, options.thorough ? 40 : 4);
     if (!options.clearance && options.thorough) {
-      take_shorter_way_round(free, filter, *points, kPlacesForWayRound);
+      take_shorter_way_round(free, filter, *points, kMilestonesForWayRound);
     }
   }
   if (!options.raw && !options.clearance) straighten(allowed, *points);
@@ -99,6 +99,12 @@ std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start
   NEF_ASSERT(path.has_value());
   path->unrounded = std::move(unrounded);
   return path;
+}
+
+std::vector<double> lengths_of(const ExactPath& path) {
+  std::vector<double> lengths;
+  for (std::size_t i = 1; i < path.points.size(); ++i) lengths.push_back(distance(path.points[i - 1], path.points[i]));
+  return lengths;
 }
 
 std::optional<ExactPath> describe_path(const FreeSpace& free, std::vector<Rational3> points) {

@@ -46,6 +46,9 @@ struct ExactPath {
 std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start, const Rational3& goal,
                                    const PathOptions& options = {}, const Monitor& monitor = {});
 
+/// The length of each segment.
+std::vector<double> lengths_of(const ExactPath& path);
+
 /// Describes given way-points; nothing if a segment leaves free space.
 std::optional<ExactPath> describe_path(const FreeSpace& free, std::vector<Rational3> points);
 

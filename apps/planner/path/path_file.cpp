@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/path/path_file.h"
 
-#include <sstream>
-
+#include "apps/program/exact_json.h"
+#include "apps/program/numbers.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/number_text.h"
-#include "nef/program/exact_json.h"
-#include "nef/program/numbers.h"
 
 namespace nef::planner {
 namespace {
@@ -16,12 +14,7 @@ using nlohmann::json;
 // Three numbers a line, or the seven of an SE(3) matrix, whose last four are the rotation.
 std::vector<Rational3> points_of_lines(const std::string& text, const std::string& file) {
   std::vector<Rational3> points;
-  std::istringstream lines(text);
-  std::string line;
-  for (std::size_t number = 1; std::getline(lines, line); ++number) {
-    const std::string where = file + ":" + std::to_string(number);
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    const std::vector<Rational> values = parse_numbers(line, where);
+  for (const auto& [where, values] : parse_lines(text, file)) {
     if (values.size() != 3 && values.size() != 7) {
       throw InputError(where + ": expected x y z, or x y z qx qy qz qw, not " + std::to_string(values.size()) +
                        " numbers");

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/path/queries.h"
 
-#include <sstream>
-
+#include "apps/program/exact_json.h"
+#include "apps/program/numbers.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
-#include "nef/program/exact_json.h"
-#include "nef/program/numbers.h"
 
 namespace nef::planner {
 namespace {
@@ -28,12 +26,7 @@ std::vector<Query> queries_of_json(const std::string& text, const std::string& f
 
 std::vector<Query> queries_of_lines(const std::string& text, const std::string& file) {
   std::vector<Query> queries;
-  std::istringstream lines(text);
-  std::string line;
-  for (std::size_t number = 1; std::getline(lines, line); ++number) {
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    const std::string where = file + ":" + std::to_string(number);
-    const std::vector<Rational> x = parse_numbers(line, where);
+  for (const auto& [where, x] : parse_lines(text, file)) {
     if (x.size() != 6) {
       throw InputError(where + ": expected the six coordinates of start and goal, not " + std::to_string(x.size()) +
                        " numbers");

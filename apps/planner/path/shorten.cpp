@@ -49,10 +49,6 @@ double best_parameter(const Vector3d& e0, const Vector3d& d, const Vector3d& a, 
   return ha + hc > 0 ? (ta * hc + tc * ha) / (ha + hc) : ta;
 }
 
-Rational3 on_line(const Rational3& e0, const Rational3& e1, const Rational& t) {
-  return {e0[0] + t * (e1[0] - e0[0]), e0[1] + t * (e1[1] - e0[1]), e0[2] + t * (e1[2] - e0[2])};
-}
-
 // The free edges that the point lies on or ends.
 std::vector<CellId> edges_at(const FreeSpace& free, const Rational3& point) {
   const CellId cell = free.locate(ExactPoint(point));
@@ -85,7 +81,7 @@ bool slide(const FreeSpace& free, const CellFilter& filter, Waypoints& path, std
     if (!std::isfinite(t)) continue;
     const Rational low = std::max(Rational(0), Rational(t - 1e-7));
     const Rational high = std::min(Rational(1), Rational(t + 1e-7));
-    Rational3 x = on_line(ends[0], ends[1], simplest_between(low, high));
+    Rational3 x = point_between(ends[0], ends[1], simplest_between(low, high));
     for (int halving = 0; halving < 4 && x != path[i]; ++halving) {
       if (try_replace(free, filter, path, i, x)) {
         changed = true;
@@ -114,7 +110,7 @@ void polish(const FreeSpace& free, const CellFilter& filter, Waypoints& path, st
     if (!std::isfinite(t) || t < 0 || t > 1) continue;
     const Rational low = std::max(Rational(0), Rational(t - 1e-6));
     const Rational high = std::min(Rational(1), Rational(t + 1e-6));
-    const Rational3 x = on_line(ends[0], ends[1], simplest_between(low, high));
+    const Rational3 x = point_between(ends[0], ends[1], simplest_between(low, high));
     if (bits(x) >= bits(path[i])) continue;
     const double before = distance(path[i - 1], path[i]) + distance(path[i], path[i + 1]);
     const double after = distance(path[i - 1], x) + distance(x, path[i + 1]);

@@ -61,11 +61,11 @@ void simplify(const SegmentCheck& allowed, Points& path, std::size_t i, std::siz
   const Rational x = path[i][k];
   constexpr unsigned kSimple = 256;  // corners of what people draw stay without being asked about
   if (x == path[i - 1][k] || x == path[i + 1][k] || x.get_den() <= kSimple) return;
-  const double room = std::min(distance(path[i - 1], path[i]), distance(path[i], path[i + 1]));
+  const double reach = std::min(distance(path[i - 1], path[i]), distance(path[i], path[i + 1]));
   std::vector<Rational> candidates{path[i - 1][k], path[i + 1][k]};
   for (const double share : {0.1, 0.01, 0.001}) {
-    const Rational reach = exact_rational(room * share);
-    candidates.push_back(simplest_between(x - reach, x + reach));
+    const Rational near = exact_rational(reach * share);
+    candidates.push_back(simplest_between(x - near, x + near));
   }
   for (const Rational& candidate : candidates) {
     if (candidate == x) continue;

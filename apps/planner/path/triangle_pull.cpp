@@ -157,10 +157,10 @@ std::vector<HalfedgeId> edges_near(const FreeSpace& free, const Triangle& triang
     if (triangle.may_meet(box)) edges.push_back(c.edge(h));
   };
   free.items().for_each_if([&](const Box& box) { return triangle.may_meet(box); },
-                           [&](const ItemTree::Item& item) {
-                             if (item.kind == ItemTree::Kind::kEdge) add(HalfedgeId{item.index});
-                             if (item.kind != ItemTree::Kind::kFacet) return;
-                             for (const SHalfedgeId corner : c.corners_of(FacetId{item.index})) {
+                           [&](const ItemRef& item) {
+                             if (item.kind == ItemRef::Kind::kEdge) add(item.halfedge());
+                             if (item.kind != ItemRef::Kind::kFacet) return;
+                             for (const SHalfedgeId corner : c.corners_of(item.facet())) {
                                add(c.corner_halfedge(corner));
                              }
                            });
@@ -181,8 +181,7 @@ void append_meetings(const Complex& c, HalfedgeId halfedge, const Triangle& tria
   if (hx == 0) add(x);
   if (hy == 0) add(y);
   if (sgn(hx) * sgn(hy) >= 0) return;
-  const Rational t = hx / (hx - hy);
-  add({x[0] + t * (y[0] - x[0]), x[1] + t * (y[1] - x[1]), x[2] + t * (y[2] - x[2])});
+  add(point_between(x, y, hx / (hx - hy)));
 }
 
 // The points in which edges meet the triangle, but for those that are well below a string over all of them.
@@ -208,6 +207,38 @@ std::vector<Point2> upper_meetings(const FreeSpace& free, const Triangle& triang
   return result;
 }
 
+// A point with small numbers not far from x, beside coordinates as large as `reach`.
+Rational3 rounded(const Rational3& x, double reach) {
+  constexpr int kBits = 30;
+  const double unit = std::ldexp(1.0, std::ilogb(reach) - kBits);
+  Rational3 result;
+  for (std::size_t k = 0; k < 3; ++k) result[k] = exact_rational(std::nearbyint(nearest_double(x[k]) / unit) * unit);
+  return result;
+}
+
+// Where the edges may not be touched: the string drawn larger about the middle of the triangle's base, which leaves
+// all of it beyond the edges, and its way-points rounded. If a string so near is not free, nothing is: what lies
+// between it and the corner contains no edge.
+std::optional<Waypoints> string_beside_edges(const FreeSpace& free, const CellFilter& filter, const Triangle& triangle,
+                                             const std::vector<Point2>& hull) {
+  const Rational middle(1, 2);
+  for (const int bits : {18, 10}) {
+    const Rational growth = 1 + exact_rational(std::ldexp(1.0, -bits));
+    Waypoints string;
+    for (const Point2& p : hull) {
+      const bool end = p == hull.front() || p == hull.back();
+      string.push_back(triangle.at(end ? p : Point2{middle + growth * (p[0] - middle), growth * p[1]}));
+    }
+    Waypoints simple = string;
+    double reach = 0;
+    for (const Rational3& x : string) reach = std::max(reach, to_vector(x).lpNorm<Eigen::Infinity>());
+    for (std::size_t k = 1; k + 1 < simple.size(); ++k) simple[k] = rounded(simple[k], reach);
+    if (way_allowed(free, filter, simple)) return simple;
+    if (way_allowed(free, filter, string)) return string;
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 bool pull_corner(const FreeSpace& free, const CellFilter& filter, Waypoints& path, std::size_t i) {
@@ -226,8 +257,12 @@ bool pull_corner(const FreeSpace& free, const CellFilter& filter, Waypoints& pat
   for (const Point2& p : hull) string.push_back(triangle.at(p));
   const double before = distance(path[i - 1], path[i]) + distance(path[i], path[i + 1]);
   if (!(length_of(string) < before - 1e-13 * before)) return false;
-  for (std::size_t k = 0; k + 1 < string.size(); ++k) {
-    if (!segment_allowed(free, filter, string[k], string[k + 1])) return false;
+  if (!way_allowed(free, filter, string)) {
+    // What a string beside the edges gains again and again by coming nearer is not worth its numbers.
+    constexpr double kGain = 1e-7;
+    std::optional<Waypoints> beside = string_beside_edges(free, filter, triangle, hull);
+    if (!beside || !(length_of(*beside) < before - kGain * before)) return false;
+    string = std::move(*beside);
   }
   path.erase(path.begin() + static_cast<std::ptrdiff_t>(i));
   path.insert(path.begin() + static_cast<std::ptrdiff_t>(i), string.begin() + 1, string.end() - 1);

@@ -15,7 +15,7 @@
 #include "apps/planner/proofs/arc_time.h"
 #include "apps/planner/proofs/check_parts.h"
 #include "apps/planner/proofs/path_proof.h"
-#include "apps/planner/turning/reachable_part.h"
+#include "apps/planner/scene/reachable_part.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 #include "nef/geometry/vectors.h"
@@ -234,7 +234,7 @@ Polyhedron united(const ProofPieces& pieces, bool flat, const Monitor& monitor) 
   for (const Points& piece : pieces) {
     if (is_flat(piece) == flat) hulls.push_back(convex_hull(piece, monitor));
   }
-  return unite_all(hulls, 1, monitor);
+  return unite_all(hulls, monitor);
 }
 
 // Compares the solid pieces with the solid parts of sets, and the flat ones with what sticks out of these.
@@ -244,10 +244,10 @@ Complaint compare(const ProofPieces& pieces, const std::vector<Polyhedron>& sets
   std::vector<Polyhedron> rest;
   for (const Polyhedron& set : sets) {
     solid.push_back(regularize(set, monitor));
-    rest.push_back(closure(subtract(set, solid.back(), 1, monitor), monitor));
+    rest.push_back(closure(subtract(set, solid.back(), monitor), monitor));
   }
   for (const bool flat : {false, true}) {
-    if (equal(united(pieces, flat, monitor), unite_all(flat ? rest : solid, 1, monitor))) continue;
+    if (equal(united(pieces, flat, monitor), unite_all(flat ? rest : solid, monitor))) continue;
     return std::string("the ") + (flat ? "flat" : "solid") + " pieces of the " + what + " are not those of the scene";
   }
   return std::nullopt;

@@ -224,7 +224,7 @@ std::optional<std::array<Polyhedron, 2>> component_and_rest(const Polyhedron& fr
     const Rational3& beyond = inside == &start ? goal : start;
     for (const Polyhedron& component : components) {
       if (!component.is_bounded() || !contains(component, *inside) || contains(component, beyond)) continue;
-      return std::array{component, subtract(free, component, 1, monitor)};
+      return std::array{component, subtract(free, component, monitor)};
     }
   }
   return std::nullopt;

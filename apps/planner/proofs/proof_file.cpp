@@ -11,9 +11,9 @@
 #include <limits>
 #include <span>
 
+#include "apps/program/exact_json.h"
 #include "nef/base/error.h"
 #include "nef/base/in_quotes.h"
-#include "nef/program/exact_json.h"
 
 namespace nef::planner {
 namespace {

@@ -37,6 +37,7 @@ struct MotionCell {
   double position_reach = 0;   ///< no |x| + |y| + |z| of a position is larger
   double turn_spread = 0;      ///< about how far the rotation takes a point at distance 1
   double position_spread = 0;  ///< about how far the position goes
+  double slack = 0;            ///< what is enclosed may be farther out than the images by so much
 
   /// The images of a point.
   template <typename Visit>

@@ -8,28 +8,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <utility>
 
 #include "apps/planner/free_space/hulls_apart.h"
+#include "apps/planner/rigid/close_pieces.h"
+#include "apps/planner/rigid/motion_parts.h"
 #include "apps/planner/rigid/separation.h"
-#include "apps/planner/turning/reachable_part.h"
+#include "apps/planner/scene/reachable_part.h"
 #include "nef/base/error.h"
 
 namespace nef::planner {
-namespace {
-
-// As in separation.cpp: two images, and the sums and products around them. An infinite sum is not above an infinite
-// error.
-constexpr double kBoxError = 2 * MotionCell::kImageError;
-
-}  // namespace
 
 /// One call of MotionChecker::check.
 class MotionExamination {
  public:
   MotionExamination(const MotionChecker& checker, const RigidMotion& motion, const CheckLimits& limits)
-      : checker_(checker), motion_(motion), cells_(motion), limits_(limits) {
+      : checker_(checker), motion_(motion), cells_(motion), limits_(limits), parts_(limits.in_order) {
     limits_.depth = std::min(limits_.depth, 40U);  // parameters and their complements are exact doubles
   }
 
@@ -42,11 +36,9 @@ class MotionExamination {
       return verdict_;
     }
     if (verdict_.status == MotionVerdict::Status::kCollides) return verdict_;
-    parts_.push_back({0, 1, 0, root()});
+    parts_.add({0, 1, 0, root()});
     while (!parts_.empty()) {
-      Part part = std::move(limits_.in_order ? parts_.back() : parts_.front());
-      limits_.in_order ? parts_.pop_back() : parts_.pop_front();
-      if (!examine(part)) return verdict_;
+      if (!examine(parts_.next())) return verdict_;
     }
     std::sort(verdict_.parts.begin(), verdict_.parts.end());
     if (!verdict_.undecided.empty()) {
@@ -57,28 +49,16 @@ class MotionExamination {
   }
 
   /// The pose at a parameter, exactly if need be.
-  bool collides_at(double s) {
-    std::vector<Pair> pairs = root();
-    return collides_at(s, pairs, true);
-  }
+  bool collides_at(double s) { return collides_at(s, root(), true); }
 
   MotionVerdict take() { return std::move(verdict_); }
 
  private:
-  using Pair = std::array<std::uint32_t, 2>;  // nodes of the robot's tree and of the obstacles'
+  using Pair = NodePair;  // of the robot's tree and of the obstacles'
 
-  // A part of the motion that is still to be looked at.
-  struct Part {
-    double from = 0;
-    double to = 1;
-    unsigned depth = 0;
-    std::vector<Pair> pairs;
-  };
+  using Part = MotionParts<std::vector<Pair>>::Part;
 
-  [[nodiscard]] std::vector<Pair> root() const {
-    const bool nothing = checker_.robot_.nodes().empty() || checker_.obstacles_.nodes().empty();
-    return nothing ? std::vector<Pair>{} : std::vector<Pair>{{0, 0}};
-  }
+  [[nodiscard]] std::vector<Pair> root() const { return root_pair(checker_.robot_, checker_.obstacles_); }
 
   MotionVerdict collision_outside(double s) {
     verdict_.status = MotionVerdict::Status::kCollides;
@@ -89,19 +69,18 @@ class MotionExamination {
   }
 
   // False if the examination has ended.
-  bool examine(Part& part) {
+  bool examine(const Part& part) {
     ++verdict_.cells;
     const MotionCell cell = cells_.part(part.from, part.to);
     const bool last = part.depth >= limits_.depth || verdict_.cells >= limits_.max_cells;
-    std::vector<Pair> rest = cell.wide ? part.pairs : not_apart(part, cell, last);
+    std::vector<Pair> rest = cell.wide ? part.open : not_apart(part, cell, last);
     // A part that turns far has no images, so it is no part of a proof although there is nothing to hit.
     if (rest.empty() && !(limits_.keep_parts && cell.wide)) {
       if (limits_.keep_parts) verdict_.parts.push_back({part.from, part.to});
       return true;
     }
-    const double middle = (part.from + part.to) / 2;
     if (!limits_.in_order || last) {
-      if (collides_at(middle, rest, last && exact_tests_ < limits_.max_exact)) {
+      if (collides_at(part.middle(), rest, last && exact_tests_ < limits_.max_exact)) {
         verdict_.free_until = part.from;
         return false;
       }
@@ -115,69 +94,15 @@ class MotionExamination {
       }
       return true;
     }
-    Part first{part.from, middle, part.depth + 1, rest};
-    Part second{middle, part.to, part.depth + 1, std::move(rest)};
-    if (limits_.in_order) std::swap(first, second);
-    parts_.push_back(std::move(first));
-    parts_.push_back(std::move(second));
+    parts_.halve(part, std::move(rest));
     return true;
   }
 
   // The pairs of nodes that are not proved to be apart in a part of the motion.
   std::vector<Pair> not_apart(const Part& part, const MotionCell& cell, bool last) {
-    std::vector<Pair> rest;
-    std::vector<Pair> stack = part.pairs;
-    // Beside nodes of this size, what a pair sweeps is large.
-    constexpr double kSweepBesideSize = 1;
-    while (!stack.empty()) {
-      const Pair pair = stack.back();
-      stack.pop_back();
-      const RigidBody::Node& a = checker_.robot_.nodes()[pair[0]];
-      const RigidBody::Node& b = checker_.obstacles_.nodes()[pair[1]];
-      if (boxes_apart(cell, a, b)) continue;
-      if (a.leaf && b.leaf) {
-        if (!leaves_apart(part, cell, a.first, b.first)) rest.push_back(pair);
-        continue;
-      }
-      const double sweep = cell.position_spread + cell.turn_spread * a.reach;
-      if (!last && sweep > kSweepBesideSize * (a.radius + b.radius)) {
-        rest.push_back(pair);
-      } else {
-        split(pair, a, b, stack);
-      }
-    }
-    return rest;
-  }
-
-  static void split(const Pair& pair, const RigidBody::Node& a, const RigidBody::Node& b, std::vector<Pair>& stack) {
-    const bool split_a = b.leaf || (!a.leaf && a.radius > b.radius);
-    for (const std::uint32_t child : {0U, 1U}) {
-      stack.push_back(split_a ? Pair{a.first + child, pair[1]} : Pair{pair[0], b.first + child});
-    }
-  }
-
-  // The box of a node of the robot, turned, lies in that about M centre with the halves |M| half.
-  static bool boxes_apart(const MotionCell& cell, const RigidBody::Node& a, const RigidBody::Node& b) {
-    const double error = kBoxError * (2 * a.reach + b.reach + cell.position_reach) + MotionCell::kVanished;
-    Vector3d low = Vector3d::Constant(HUGE_VAL);
-    Vector3d high = Vector3d::Constant(-HUGE_VAL);
-    for (std::size_t i = 0; i < cell.turn_count; ++i) {
-      const Vector3d centre = cell.turns[i] * a.centre;
-      const Vector3d half = cell.turns[i].cwiseAbs() * a.half;
-      low = low.cwiseMin(centre - half);
-      high = high.cwiseMax(centre + half);
-    }
-    Vector3d from = cell.positions[0];
-    Vector3d to = from;
-    if (cell.position_count == 2) {
-      from = from.cwiseMin(cell.positions[1]);
-      to = to.cwiseMax(cell.positions[1]);
-    }
-    for (Eigen::Index k = 0; k < 3; ++k) {
-      if (low[k] + from[k] > b.centre[k] + b.half[k] + error) return true;
-      if (high[k] + to[k] < b.centre[k] - b.half[k] - error) return true;
-    }
-    return false;
+    return nodes_not_apart(
+        cell, checker_.robot_, checker_.obstacles_, part.open, last,
+        [&](std::uint32_t robot, std::uint32_t obstacle) { return leaves_apart(part, cell, robot, obstacle); });
   }
 
   bool leaves_apart(const Part& part, const MotionCell& cell, std::uint32_t robot, std::uint32_t obstacle) {
@@ -201,25 +126,15 @@ class MotionExamination {
   // `exact`, else taken for free.
   bool collides_at(double s, const std::vector<Pair>& pairs, bool exact) {
     const MotionCell cell = cells_.pose(s);
-    std::vector<Pair> stack = pairs;
-    while (!stack.empty()) {
-      const Pair pair = stack.back();
-      stack.pop_back();
-      const RigidBody::Node& a = checker_.robot_.nodes()[pair[0]];
-      const RigidBody::Node& b = checker_.obstacles_.nodes()[pair[1]];
-      if (boxes_apart(cell, a, b)) continue;
-      if (!a.leaf || !b.leaf) {
-        split(pair, a, b, stack);
-      } else if (collide(s, cell, a.first, b.first, exact)) {
-        verdict_.status = MotionVerdict::Status::kCollides;
-        verdict_.pose = motion_.at(s);
-        verdict_.parameter = s;
-        verdict_.robot_piece = a.first;
-        verdict_.obstacle_piece = b.first;
-        return true;
-      }
-    }
-    return false;
+    return any_close_leaf(cell, checker_.robot_, checker_.obstacles_, pairs, [&](std::uint32_t a, std::uint32_t b) {
+      if (!collide(s, cell, a, b, exact)) return false;
+      verdict_.status = MotionVerdict::Status::kCollides;
+      verdict_.pose = motion_.at(s);
+      verdict_.parameter = s;
+      verdict_.robot_piece = a;
+      verdict_.obstacle_piece = b;
+      return true;
+    });
   }
 
   bool collide(double s, const MotionCell& cell, std::uint32_t robot, std::uint32_t obstacle, bool exact) {
@@ -228,8 +143,7 @@ class MotionExamination {
     place(a, cell, rough_robot_);
     place(b, rough_obstacle_);
     if (plane_between(rough_robot_, rough_obstacle_) == Separation::kApart) return false;
-    rough_robot_.normals.clear();
-    for (const Vector3d& n : a.normals) rough_robot_.normals.emplace_back(cell.turns[0] * n);
+    keep_face_normals(a, cell, rough_robot_);
     const bool between = s != 0 && s != 1;
     const double slack = between ? cells_.position_error() : 0;
     if (overlap(a, rough_robot_, b, slack) == Separation::kOverlapping) return true;
@@ -244,7 +158,7 @@ class MotionExamination {
   const RigidMotion& motion_;
   MotionCells cells_;
   CheckLimits limits_;
-  std::deque<Part> parts_;
+  MotionParts<std::vector<Pair>> parts_;
   std::size_t exact_tests_ = 0;
   MotionVerdict verdict_;
   RoughPolytope rough_robot_;

@@ -52,6 +52,14 @@ struct CheckLimits {
   /// The default order finds collisions sooner.
   bool in_order = false;
   bool keep_parts = false;  ///< fill MotionVerdict::parts
+
+  /// Fewer parts: planners reject what takes long.
+  [[nodiscard]] static CheckLimits for_planners() {
+    CheckLimits limits;
+    limits.depth = 12;
+    limits.max_cells = 1024;
+    return limits;
+  }
 };
 
 /// Answers whether poses and motions of a rigid robot among rigid obstacles collide. Contact rule: with kAllow two

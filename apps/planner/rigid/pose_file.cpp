@@ -2,12 +2,11 @@
 #include "apps/planner/rigid/pose_file.h"
 
 #include <algorithm>
-#include <sstream>
 
+#include "apps/program/exact_json.h"
+#include "apps/program/numbers.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
-#include "nef/program/exact_json.h"
-#include "nef/program/numbers.h"
 
 namespace nef::planner {
 namespace {
@@ -25,12 +24,7 @@ void require_rotation(const RigidPose& pose, const std::string& where) {
 // Nothing if a line has another number of columns.
 std::optional<std::vector<RigidPose>> poses_of_lines(const std::string& text, const std::string& file) {
   std::vector<RigidPose> poses;
-  std::istringstream lines(text);
-  std::string line;
-  for (std::size_t number = 1; std::getline(lines, line); ++number) {
-    if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    const std::string where = file + ":" + std::to_string(number);
-    const std::vector<Rational> v = parse_numbers(line, where);
+  for (const auto& [where, v] : parse_lines(text, file)) {
     if (v.size() != 7) return std::nullopt;
     poses.push_back({{v[0], v[1], v[2]}, {v[6], v[3], v[4], v[5]}});
     require_rotation(poses.back(), where);

@@ -51,7 +51,7 @@ RigidBody RigidBody::of_set(const Polyhedron& set, const Monitor& monitor) {
     if (cell.dimension == 3) pieces.push_back(piece_of(cell.mesh, false));
   }
   if (!set.is_regular()) {
-    for (const minkowski::ConvexCell& cell : minkowski::decompose(closure(subtract(set, solid, 1, monitor)), monitor)) {
+    for (const minkowski::ConvexCell& cell : minkowski::decompose(closure(subtract(set, solid, monitor)), monitor)) {
       pieces.push_back(piece_of(cell.mesh, true));
     }
   }

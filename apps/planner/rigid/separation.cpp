@@ -5,7 +5,8 @@
 // difference in the opposite one a better point. Only verified planes count, so the search may stop anywhere.
 //
 // overlap knows the generic ways in which convex polytopes meet: a vertex of one is inside the other, or an edge of one
-// goes through a face of the other. Pairs that are not generic are left to hulls_are_apart.
+// goes through a face of the other. Otherwise a point inside both is looked for by projections on the planes of faces.
+// What remains is left to hulls_are_apart.
 #include "apps/planner/rigid/separation.h"
 
 #include <algorithm>
@@ -125,6 +126,7 @@ void place(const RigidBody::Piece& piece, const MotionCell& cell, RoughPolytope&
     if (piece.flat) result.normals.emplace_back(-result.normals.back());
   }
   result.reach = piece.reach + cell.position_reach;
+  result.slack = cell.slack;
 }
 
 void place(const RigidBody::Piece& piece, RoughPolytope& result) {
@@ -134,6 +136,12 @@ void place(const RigidBody::Piece& piece, RoughPolytope& result) {
     for (const Vector3d& n : piece.normals) result.normals.emplace_back(-n);
   }
   result.reach = piece.reach;
+  result.slack = 0;
+}
+
+void keep_face_normals(const RigidBody::Piece& piece, const MotionCell& cell, RoughPolytope& result) {
+  result.normals.clear();
+  for (const Vector3d& n : piece.normals) result.normals.emplace_back(cell.turns[0] * n);
 }
 
 double plane_error(const RoughPolytope& a, const RoughPolytope& b) {
@@ -144,11 +152,12 @@ Separation plane_between(const RoughPolytope& a, const RoughPolytope& b, Vector3
   const double reach = a.reach + b.reach;
   if (!(reach < kLargestReach)) return Separation::kPerhaps;
   const double error_of_unit = plane_error(a, b);
+  const double slack = a.slack + b.slack;
   bool perhaps = false;
   Supports last;
   const auto separates = [&](const Vector3d& n) {
     last = supports(a, b, n);
-    const double error = error_of_unit * n.lpNorm<1>() + MotionCell::kVanished;
+    const double error = (error_of_unit + slack) * n.lpNorm<1>() + MotionCell::kVanished;
     perhaps = perhaps || last.gap >= -error;
     if (last.gap > error && normal != nullptr) *normal = n;
     return last.gap > error;
@@ -175,6 +184,53 @@ Separation plane_between(const RoughPolytope& a, const RoughPolytope& b, Vector3
   return perhaps ? Separation::kPerhaps : Separation::kUnknown;
 }
 
+// A point moves to the other side of the plane that it is farthest beyond, again and again, until it is behind all by a
+// margin m = 2 plane_error, 1024u of the reach R of both. Let n be a rounded normal, within 8u of the true one N in
+// each coordinate (4u, and 4u more of a rotation of rounded entries). With the plane through the foremost rounded
+// vertex q, N p - N q for a true vertex is at most n p - n q and 24u R for each of p and q, 3 kImageError R for q's
+// error and 6u R for the roundings of the products, p being no farther out than R: below m.
+bool have_inner_point(const PointsAndNormals& a, const PointsAndNormals& b, double reach, double margin) {
+  struct Side {
+    const Vector3d* normal;
+    double offset;
+  };
+  std::vector<Side> sides;
+  Vector3d low = Vector3d::Constant(-HUGE_VAL);
+  Vector3d high = Vector3d::Constant(HUGE_VAL);
+  for (const PointsAndNormals* body : {&a, &b}) {
+    Vector3d least = body->points.front();
+    Vector3d most = least;
+    for (const Vector3d& q : body->points) {
+      least = least.cwiseMin(q);
+      most = most.cwiseMax(q);
+    }
+    low = low.cwiseMax(least);
+    high = high.cwiseMin(most);
+    for (const Vector3d& n : body->normals) {
+      double foremost = -HUGE_VAL;
+      for (const Vector3d& q : body->points) foremost = std::max(foremost, n.dot(q));
+      sides.push_back({&n, foremost - margin});
+    }
+  }
+  Vector3d p = (low + high) / 2;  // of what both boxes have in common
+  constexpr int kRounds = 40;
+  for (int round = 0; round < kRounds; ++round) {
+    if (!(p.lpNorm<Eigen::Infinity>() <= reach && reach < kLargestReach)) return false;
+    const Side* worst = nullptr;
+    double beyond = 0;
+    for (const Side& side : sides) {
+      const double there = side.normal->dot(p) - side.offset;
+      if (worst == nullptr || there > beyond) {
+        worst = &side;
+        beyond = there;
+      }
+    }
+    if (beyond < 0) return true;
+    p -= (1.5 * beyond + 1e-6 * (high - low).norm()) * *worst->normal;
+  }
+  return false;
+}
+
 // Errors: a point is off by kImageError reach in each coordinate, and by the slack as a whole. A distance to a plane is
 // off by sqrt(3) times that and by kSideError for the normal. A volume (q - p) x y of vectors no longer than L is off
 // by 3 L^2 times the error of a difference, which is less than 4 kImageError reach + slack; its own roundings are far
@@ -193,6 +249,10 @@ Separation overlap(const RigidBody::Piece& piece_a, const RoughPolytope& a, cons
       4 * length * length * (4 * MotionCell::kImageError * reach + slack) + MotionCell::kVanished;
   if (enters(placed_a, placed_b, distance_error, volume_error) ||
       enters(placed_b, placed_a, distance_error, volume_error)) {
+    return Separation::kOverlapping;
+  }
+  const bool solid = !piece_a.flat && !piece_b.flat && !a.normals.empty() && !piece_b.normals.empty();
+  if (solid && have_inner_point({a.points, a.normals}, {piece_b.points, piece_b.normals}, reach, distance_error)) {
     return Separation::kOverlapping;
   }
   return Separation::kUnknown;

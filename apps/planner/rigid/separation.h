@@ -27,6 +27,7 @@ struct RoughPolytope {
   std::vector<Vector3d> points;
   std::vector<Vector3d> normals;
   double reach = 0;  ///< no coordinate of a point is larger
+  double slack = 0;  ///< the polytope may be larger than its points by a ball of this radius
   void clear() {
     points.clear();
     normals.clear();
@@ -37,6 +38,10 @@ struct RoughPolytope {
 void place(const RigidBody::Piece& piece, const MotionCell& cell, RoughPolytope& result);
 void place(const RigidBody::Piece& piece, RoughPolytope& result);
 
+/// Gives what place() has made one normal for each face, turned as in the first pose of the cell, as overlap() wants
+/// it: place() adds the opposite ones of flat pieces.
+void keep_face_normals(const RigidBody::Piece& piece, const MotionCell& cell, RoughPolytope& result);
+
 /// What the difference of two products n p, p one of either's points, is off by at most, for a direction n in doubles
 /// with |n|_1 = 1.
 double plane_error(const RoughPolytope& a, const RoughPolytope& b);
@@ -44,6 +49,16 @@ double plane_error(const RoughPolytope& a, const RoughPolytope& b);
 /// Looks for a plane between two polytopes: kApart, kPerhaps or kUnknown. If kApart, `normal`, if it is given, receives
 /// the normal of the plane, which points from a to b.
 Separation plane_between(const RoughPolytope& a, const RoughPolytope& b, Vector3d* normal = nullptr);
+
+/// The points of a polytope and the outward normals of all its faces, of length 1.
+struct PointsAndNormals {
+  const std::vector<Vector3d>& points;
+  const std::vector<Vector3d>& normals;
+};
+
+/// True if doubles find a point that is inside both polytopes, farther than `margin` from each plane of a face; the
+/// margin must be no less than twice plane_error. No coordinate of a point is larger than `reach`.
+bool have_inner_point(const PointsAndNormals& a, const PointsAndNormals& b, double reach, double margin);
 
 /// Do two pieces overlap, the first one moved? Its points are given as `a`, its normals turned with it. kOverlapping
 /// only if they do wherever the first one is moved by `slack` or less; otherwise kUnknown.

@@ -46,20 +46,12 @@ class RigidMotionValidator : public ompl::base::MotionValidator {
  public:
   /** \brief Throws InputError if the space is neither of the two. */
   RigidMotionValidator(const ompl::base::SpaceInformationPtr& si, std::shared_ptr<const MotionChecker> checker,
-                       CheckLimits limits = defaultLimits());
+                       CheckLimits limits = CheckLimits::for_planners());
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2) const override;
   /** \brief lastValid is the end of a part of the motion, from s1, that is proved valid; no more than a 4096th of the
       motion is left out by halving, as long as it is decided. */
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2,
                    std::pair<ompl::base::State*, double>& lastValid) const override;
-
-  /** \brief Fewer parts than CheckLimits has: planners reject what takes long. */
-  static CheckLimits defaultLimits() {
-    CheckLimits limits;
-    limits.depth = 12;
-    limits.max_cells = 1024;
-    return limits;
-  }
 
  private:
   std::optional<MotionVerdict> examine(const ompl::base::State* s1, const ompl::base::State* s2,

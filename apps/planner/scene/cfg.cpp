@@ -151,12 +151,13 @@ std::string beside(const std::string& path, const std::string& file) {
 
 }  // namespace
 
-Scene read_cfg(const std::string& path, const Monitor& monitor) {
+Scene read_cfg(const std::string& path, const MeshOptions& meshes) {
+  const Monitor& monitor = meshes.monitor;
   const ProblemKeys keys(path);
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   Rational3 mean;
-  scene.robot = closure(read_shape_file(beside(path, keys.text("robot")), &scene.messages, &mean, monitor), monitor);
+  scene.robot = closure(read_shape_file(beside(path, keys.text("robot")), meshes, &scene.messages, &mean), monitor);
   const std::string origin = keys.has("robot.origin") ? keys.text("robot.origin") : "vertex-mean";
   if (origin != "vertex-mean" && origin != "mesh") {
     throw InputError(path + ": robot.origin must be vertex-mean or mesh, not " + in_quotes(origin));
@@ -167,7 +168,7 @@ Scene read_cfg(const std::string& path, const Monitor& monitor) {
   }
   apply_rotations(rotations_of(keys, path), path, scene, monitor);
   scene.obstacles.push_back(
-      closure(read_shape_file(beside(path, keys.text("world")), &scene.messages, nullptr, monitor), monitor));
+      closure(read_shape_file(beside(path, keys.text("world")), meshes, &scene.messages), monitor));
   scene.obstacle_names.push_back(keys.text("world"));
   scene.start = keys.point("start");
   scene.goal = keys.point("goal");

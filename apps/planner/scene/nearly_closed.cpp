@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// 1. Equal vertices are merged, and repeated faces dropped.
-// 2. Each connected part becomes a surface. A breadth-first search from its outer volume across facets gives each
-//    volume a parity; if no two ways disagree, the odd volumes are filled.
+// 1. Equal vertices are merged, and copies of faces and faces without area dropped, by the steps of a repair.
+// 2. Each connected part becomes a surface, whose volumes have winding numbers modulo 2; if no two ways to one
+// disagree,
+//    the odd ones are filled.
 // 3. Parts with nothing odd are tried once more together, as walls and a floor close each other.
 // 4. The number of other parts that contain a part (one vertex tells, where surfaces do not meet) is its depth. Depths
 //    are combined from the outermost inward: even ones are added, odd ones that are cavities removed.
@@ -11,47 +12,15 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <set>
 
 #include "nef/base/union_find.h"
 #include "nef/complex/rewrite_sphere_maps.h"
+#include "nef/import/fill.h"
+#include "nef/import/repair/repair_steps.h"
+#include "nef/mesh/mesh_piece.h"
 
 namespace nef::planner {
 namespace {
-
-// The first vertex at each vertex's place.
-std::vector<std::uint32_t> merged_vertices(const Mesh& mesh) {
-  std::map<Rational3, std::uint32_t> first;
-  std::vector<std::uint32_t> place;
-  for (std::uint32_t v = 0; v < mesh.vertices.size(); ++v)
-    place.push_back(first.emplace(mesh.vertices[v], v).first->second);
-  return place;
-}
-
-// Equal vertices joined, each face once, none with fewer than three corners.
-Mesh without_duplicates(const Mesh& mesh) {
-  const std::vector<std::uint32_t> place = merged_vertices(mesh);
-  Mesh result;
-  result.vertices = mesh.vertices;
-  std::set<std::vector<std::uint32_t>> seen;
-  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-    std::vector<std::uint32_t> corners;
-    for (const std::uint32_t v : mesh.face(f)) corners.push_back(place[v]);
-    std::vector<std::uint32_t> sorted = corners;
-    std::sort(sorted.begin(), sorted.end());
-    const bool degenerate = std::unique(sorted.begin(), sorted.end()) - sorted.begin() < 3;
-    // Polygons with the same corners in another order are different faces.
-    if (degenerate || (corners.size() < 4 && !seen.insert(sorted).second)) continue;
-    if (corners.size() > 3) {
-      std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-      std::vector<std::uint32_t> back(corners.rbegin(), corners.rend());
-      std::rotate(back.begin(), std::min_element(back.begin(), back.end()), back.end());
-      if (!seen.insert(std::min(corners, back)).second) continue;
-    }
-    result.push_face(corners);
-  }
-  return result;
-}
 
 // Meshes of the connected parts; all share the vertices of the whole.
 std::vector<Mesh> connected_parts(const Mesh& mesh) {
@@ -59,62 +28,27 @@ std::vector<Mesh> connected_parts(const Mesh& mesh) {
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     for (const std::uint32_t v : mesh.face(f)) sets.unite(mesh.face(f)[0], v);
   }
-  std::map<std::uint32_t, Mesh> parts;
-  std::map<std::uint32_t, std::map<std::uint32_t, std::uint32_t>> numbers;
+  std::map<std::uint32_t, MeshPiece> parts;
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-    const std::uint32_t root = sets.find(mesh.face(f)[0]);
-    Mesh& part = parts[root];
-    std::vector<std::uint32_t> corners;
-    for (const std::uint32_t v : mesh.face(f)) {
-      const auto [number, is_new] = numbers[root].emplace(v, static_cast<std::uint32_t>(part.vertices.size()));
-      if (is_new) part.vertices.push_back(mesh.vertices[v]);
-      corners.push_back(number->second);
-    }
-    part.push_face(corners);
+    parts.try_emplace(sets.find(mesh.face(f)[0]), mesh.vertices).first->second.push(mesh.face(f));
   }
   std::vector<Mesh> result;
-  for (auto& [root, part] : parts) result.push_back(std::move(part));
+  for (auto& [root, part] : parts) result.push_back(part.take());
   return result;
-}
-
-// For each volume whether it is an odd number of separating facets away from the outer one; nothing if ways disagree.
-std::optional<IndexedVector<VolumeId, bool>> odd_volumes(const Complex& c) {
-  IndexedVector<VolumeId, std::vector<VolumeId>> beyond(c.volumes.size());
-  for (const Facet& facet : c.facets) {
-    if (facet.volume_above == facet.volume_below) continue;
-    beyond[facet.volume_above].push_back(facet.volume_below);
-    beyond[facet.volume_below].push_back(facet.volume_above);
-  }
-  IndexedVector<VolumeId, bool> odd(c.volumes.size(), false);
-  IndexedVector<VolumeId, bool> known(c.volumes.size(), false);
-  std::vector<VolumeId> queue{kOuterVolume};
-  known[kOuterVolume] = true;
-  for (std::size_t i = 0; i < queue.size(); ++i) {
-    for (const VolumeId volume : beyond[queue[i]]) {
-      if (!known[volume]) {
-        known[volume] = true;
-        odd[volume] = !odd[queue[i]];
-        queue.push_back(volume);
-      } else if (odd[volume] == odd[queue[i]]) {
-        return std::nullopt;
-      }
-    }
-  }
-  return odd;
 }
 
 // The surface with its odd volumes filled; nothing if it has none or is ambiguous.
 std::optional<Polyhedron> filled(const Polyhedron& surface, const Monitor& monitor) {
-  const std::optional<IndexedVector<VolumeId, bool>> odd = odd_volumes(surface.complex());
-  if (!odd || std::find(odd->begin(), odd->end(), true) == odd->end()) return std::nullopt;
+  const std::optional<IndexedVector<VolumeId, int>> odd = winding_numbers(surface.complex(), Covering::kParity);
+  if (!odd || std::find(odd->begin(), odd->end(), 1) == odd->end()) return std::nullopt;
   Complex c = surface.complex();
   rewrite_sphere_maps(c, [&c, &odd](VertexId v, SphereMapBuffer& map) {
     const SFaceId first = c.vertices[v].sfaces;
     for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) {
-      map.sfaces[f].mark = (*odd)[c.sface_volume(first + f)] ? 1 : 0;
+      map.sfaces[f].mark = static_cast<LabelId>((*odd)[c.sface_volume(first + f)]);
     }
   });
-  for (const VolumeId v : c.volumes.ids()) c.volumes[v].mark = (*odd)[v] ? 1 : 0;
+  for (const VolumeId v : c.volumes.ids()) c.volumes[v].mark = static_cast<LabelId>((*odd)[v]);
   return closure(Polyhedron(std::move(c)), monitor);  // drops what is inside now
 }
 
@@ -125,7 +59,7 @@ Polyhedron surface_of(const Mesh& mesh, const Monitor& monitor) {
   return from_mesh(mesh, options);
 }
 
-struct Part {
+struct Shell {
   Polyhedron set;  // filled
   Polyhedron surface;
   std::array<Rational3, 2> box;
@@ -145,11 +79,11 @@ Boxes compare(const std::array<Rational3, 2>& inner, const std::array<Rational3,
 }
 
 // Which parts touch others, and in how many each is nested.
-void find_nesting(std::vector<Part>& parts, const Monitor& monitor) {
+void find_nesting(std::vector<Shell>& parts, const Monitor& monitor) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (std::size_t k = i + 1; k < parts.size(); ++k) {
       if (compare(parts[i].box, parts[k].box) == Boxes::kApart) continue;
-      if (!intersect(parts[i].surface, parts[k].surface, 1, monitor).is_empty()) {
+      if (!intersect(parts[i].surface, parts[k].surface, monitor).is_empty()) {
         parts[i].touched.push_back(k);
         parts[k].touched.push_back(i);
         continue;
@@ -164,14 +98,14 @@ void find_nesting(std::vector<Part>& parts, const Monitor& monitor) {
   }
 }
 
-Rational box_volume(const Part& part) {
+Rational box_volume(const Shell& part) {
   Rational product = 1;
   for (std::size_t i = 0; i < 3; ++i) product *= part.box[1][i] - part.box[0][i];
   return product;
 }
 
 // Of parts that touch each other inside of another one, the largest is the room, the others stand in it.
-bool is_cavity(const std::vector<Part>& parts, std::size_t i) {
+bool is_cavity(const std::vector<Shell>& parts, std::size_t i) {
   if (parts[i].depth % 2 == 0) return false;
   return std::none_of(parts[i].touched.begin(), parts[i].touched.end(), [&](std::size_t k) {
     if (parts[k].depth != parts[i].depth) return false;
@@ -181,13 +115,13 @@ bool is_cavity(const std::vector<Part>& parts, std::size_t i) {
 }
 
 // A solid part that is not around a cavity of this depth but meets its surface.
-bool reaches_into_cavity(const std::vector<Part>& parts, std::size_t i, std::size_t depth) {
+bool reaches_into_cavity(const std::vector<Shell>& parts, std::size_t i, std::size_t depth) {
   return std::any_of(parts[i].touched.begin(), parts[i].touched.end(),
                      [&](std::size_t k) { return parts[k].depth == depth && is_cavity(parts, k); });
 }
 
 // From the outermost inward, so that what stands in a cavity is there again.
-Polyhedron combined(std::vector<Part>& parts, const Monitor& monitor) {
+Polyhedron combined(std::vector<Shell>& parts, const Monitor& monitor) {
   find_nesting(parts, monitor);
   std::map<std::size_t, std::vector<Polyhedron>> by_depth;
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -196,16 +130,16 @@ Polyhedron combined(std::vector<Part>& parts, const Monitor& monitor) {
   }
   Polyhedron result;
   for (auto& [depth, sets] : by_depth) {
-    const Polyhedron all = unite_all(sets, 1, monitor);
+    const Polyhedron all = unite_all(sets, monitor);
     if (depth % 2 == 0) {
-      result = unite(result, all, 1, monitor);
+      result = unite(result, all, monitor);
       continue;
     }
-    result = subtract(result, interior(all, monitor), 1, monitor);
+    result = subtract(result, interior(all, monitor), monitor);
     // What reaches in from outside is there, too.
     for (std::size_t i = 0; i < parts.size(); ++i) {
       if (parts[i].depth % 2 == 0 && reaches_into_cavity(parts, i, depth)) {
-        result = unite(result, parts[i].set, 1, monitor);
+        result = unite(result, parts[i].set, monitor);
       }
     }
   }
@@ -216,13 +150,12 @@ Polyhedron combined(std::vector<Part>& parts, const Monitor& monitor) {
 
 MeshMeaning meaning_of(const Mesh& mesh, const Monitor& monitor) {
   MeshMeaning meaning;
-  const auto is_bad = [&](std::uint32_t v) { return v >= mesh.vertices.size(); };
-  if (std::any_of(mesh.corners.begin(), mesh.corners.end(), is_bad)) {
-    static_cast<void>(surface_of(mesh, monitor));  // complains
-  }
-  const Mesh clean = without_duplicates(mesh);
+  MeshInRepair faces(mesh);
+  drop_copies(faces);
+  drop_faces_without_area(faces, monitor);
+  const Mesh clean = faces.mesh();
   meaning.duplicate_faces = mesh.face_count() - clean.face_count();
-  std::vector<Part> parts;
+  std::vector<Shell> parts;
   const auto add_solid = [&](const Polyhedron& set, const Polyhedron& surface) {
     ++meaning.solid_parts;
     if (!set.is_regular()) ++meaning.surface_parts;
@@ -240,13 +173,13 @@ MeshMeaning meaning_of(const Mesh& mesh, const Monitor& monitor) {
     surfaces.push_back(surface);
   }
   // Parts that are open by themselves may close each other (walls and a floor that share no vertices).
-  const Polyhedron together = unite_all(surfaces, 1, monitor);
+  const Polyhedron together = unite_all(surfaces, monitor);
   if (const std::optional<Polyhedron> set = open_parts > 1 ? filled(together, monitor) : std::nullopt) {
     add_solid(*set, together);
     meaning.set = combined(parts, monitor);
   } else {
     meaning.surface_parts += open_parts;
-    meaning.set = unite(combined(parts, monitor), together, 1, monitor);
+    meaning.set = unite(combined(parts, monitor), together, monitor);
   }
   return meaning;
 }

@@ -8,10 +8,10 @@
 #include <filesystem>
 
 #include "apps/planner/scene/shapes.h"
+#include "apps/program/exact_json.h"
 #include "nef/base/error.h"
 #include "nef/base/in_quotes.h"
 #include "nef/io/file_bytes.h"
-#include "nef/program/exact_json.h"
 
 namespace nef::planner {
 namespace {
@@ -21,13 +21,13 @@ using nlohmann::json;
 // Shapes of one scene; errors say which key they come from.
 class ShapeReader {
  public:
-  ShapeReader(std::string folder, Messages& messages, const Monitor& monitor)
-      : folder_(std::move(folder)), messages_(messages), monitor_(monitor) {}
+  ShapeReader(std::string folder, Messages& messages, const MeshOptions& meshes)
+      : folder_(std::move(folder)), messages_(messages), meshes_(meshes) {}
 
   Polyhedron shape(const json& value, const std::string& what) {
     if (value.is_string()) {
       try {
-        return shape_of_text(value.get<std::string>(), folder_, &messages_, monitor_);
+        return shape_of_text(value.get<std::string>(), folder_, meshes_, &messages_);
       } catch (const InputError& error) {
         throw InputError(what + ": " + error.what());
       }
@@ -38,7 +38,7 @@ class ShapeReader {
  private:
   std::string folder_;
   Messages& messages_;
-  Monitor monitor_;
+  MeshOptions meshes_;
 };
 
 const std::vector<std::string> kKeys{"robot", "obstacles", "reference", "box",     "start",
@@ -97,8 +97,9 @@ AxisRotation rotation_of(const json& value, const std::string& what) {
     if (!range.is_array() || range.size() != 2) throw InputError(what + ": range must be two angles in degrees");
     rotation.low = rational_of(range[0], what + ": range");
     rotation.high = rational_of(range[1], what + ": range");
-    if (rotation.low >= rotation.high || rotation.high - rotation.low > 360) {
-      throw InputError(what + ": range must go up, by no more than 360 degrees");
+    constexpr int kMostDegrees = 36000;  // a hundred turns: each of them has cells of its own
+    if (rotation.low >= rotation.high || rotation.high - rotation.low > kMostDegrees) {
+      throw InputError(what + ": range must go up, by no more than " + std::to_string(kMostDegrees) + " degrees");
     }
   }
   return rotation;
@@ -120,12 +121,14 @@ void require_no_rotation(const Scene& scene) {
                    "rotation out");
 }
 
-Scene parse_scene(const std::string& text, const std::string& folder, const std::string& name, const Monitor& monitor) {
+Scene parse_scene(const std::string& text, const std::string& folder, const std::string& name,
+                  const MeshOptions& meshes) {
+  const Monitor& monitor = meshes.monitor;
   const json root = parse_exact_json(text, name);
   check_keys(root, name);
   Scene scene;
   scene.name = std::filesystem::path(name).stem().string();
-  ShapeReader shapes(folder, scene.messages, monitor);
+  ShapeReader shapes(folder, scene.messages, meshes);
   scene.robot = closure(shapes.shape(root["robot"], name + ": robot"), monitor);
   if (scene.robot.is_empty()) throw InputError(name + ": the robot is empty");
   if (!scene.robot.is_bounded()) throw InputError(name + ": the robot must be bounded");
@@ -159,9 +162,9 @@ Scene parse_scene(const std::string& text, const std::string& folder, const std:
   return scene;
 }
 
-Scene read_scene(const std::string& path, const Monitor& monitor) {
-  if (lower_extension(path) == "cfg") return read_cfg(path, monitor);
-  return parse_scene(read_file(path), std::filesystem::path(path).parent_path().string(), path, monitor);
+Scene read_scene(const std::string& path, const MeshOptions& meshes) {
+  if (lower_extension(path) == "cfg") return read_cfg(path, meshes);
+  return parse_scene(read_file(path), std::filesystem::path(path).parent_path().string(), path, meshes);
 }
 
 }  // namespace nef::planner

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
 
@@ -46,9 +45,22 @@ struct Scene {
   Messages messages;  ///< what was done to the input
 };
 
+/// True if a position of the reference point is in the box, if there is one.
+inline bool is_in_box(const Rational3& position, const std::optional<std::array<Rational3, 2>>& box) {
+  for (std::size_t i = 0; box && i < 3; ++i) {
+    if (position[i] < (*box)[0][i] || position[i] > (*box)[1][i]) return false;
+  }
+  return true;
+}
+
 /// Throws InputError if the robot of the scene may turn: for what knows translations only, so that no answer about one
 /// orientation passes for an answer about all.
 void require_no_rotation(const Scene& scene);
+
+/// How scenes read meshes unless told otherwise, like all programs: what is enclosed at least once is solid.
+inline MeshOptions scene_meshes(const Monitor& monitor = {}) {
+  return {.crossings = Crossings::kUnion, .monitor = monitor};
+}
 
 /// Reads a scene. `.cfg` files are OMPL.app problems, everything else is JSON:
 ///
@@ -61,12 +73,12 @@ void require_no_rotation(const Scene& scene);
 /// is the rational that its text spells (0.1 is one tenth). SHAPE is a string: the path of a mesh or
 /// nef file, relative to the scene, or else an expression of `nef eval` such as
 /// "box(0,0,0, 9,3,3) - box(1,1,1, 2,2,2)". With a rotation, start and goal have a fourth number: degrees. Throws
-/// InputError with one line for anything else.
-Scene read_scene(const std::string& path, const Monitor& monitor = {});
+/// InputError with one line for anything else. `meshes`: how mesh files are read (read_shape_file), and who watches.
+Scene read_scene(const std::string& path, const MeshOptions& meshes = scene_meshes());
 
 /// The same from text; `folder` is where file names begin.
 Scene parse_scene(const std::string& text, const std::string& folder, const std::string& name,
-                  const Monitor& monitor = {});
+                  const MeshOptions& meshes = scene_meshes());
 
 /// An OMPL.app problem: [problem] robot, world, start.*, goal.*, volume.*. If the rotations of start and goal are the
 /// same, that one is applied to the robot once, and answers hold for translations at that orientation, as a message
@@ -74,6 +86,6 @@ Scene parse_scene(const std::string& text, const std::string& folder, const std:
 /// reference point (also the centre of rotation) is the mean of its vertices as OMPL.app computes it, unless
 /// `robot.origin = mesh`; our own keys are `contact` and exact numbers such as 1/3. A mesh that bounds no solid is what
 /// meaning_of (nearly_closed.h) says.
-Scene read_cfg(const std::string& path, const Monitor& monitor = {});
+Scene read_cfg(const std::string& path, const MeshOptions& meshes = scene_meshes());
 
 }  // namespace nef::planner

@@ -3,44 +3,70 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <variant>
+#include <optional>
 
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/morphology.h"
 #include "apps/planner/scene/nearly_closed.h"
+#include "apps/program/expression/expression.h"
+#include "nef/base/counted.h"
 #include "nef/base/error.h"
-#include "nef/import/try_from_mesh.h"
+#include "nef/import/resolve_mesh.h"
 #include "nef/io/file_bytes.h"
+#include "nef/io/mesh/mesh_formats.h"
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"
-#include "nef/program/expression/expression.h"
+#include "nef/tiles/storage/tile_folder.h"
 
 namespace nef::planner {
 namespace {
 
-std::string counted(std::size_t count, const char* one, const char* many) {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
+// By the rule for crossings; nothing if that would leave out what is inside out.
+std::optional<Polyhedron> by_rule(const Mesh& mesh, const MeshOptions& options, Messages* messages) {
+  Messages notes;
+  Polyhedron solid;
+  if (options.crossings == Crossings::kUnion && options.close_percent <= 0) {
+    ResolvedMesh resolved = resolve_mesh(mesh, options, &notes, Measure::kNot);
+    if (resolved.lowest < 0) return std::nullopt;
+    if (std::string decided = note_about(resolved, options.crossings); !decided.empty()) {
+      notes.push_back(std::move(decided));
+    }
+    solid = std::move(resolved.set);
+  } else {
+    solid = from_mesh(mesh, options, &notes);
+  }
+  if (messages != nullptr) messages->insert(messages->end(), notes.begin(), notes.end());
+  return solid;
+}
+
+// What was made of a mesh that bounds no solid, as a message.
+std::string meaning_text(const MeshMeaning& meaning) {
+  std::string text;
+  if (meaning.duplicate_faces > 0) {
+    text += counted(meaning.duplicate_faces, "face occurs", "faces occur") + " twice or has no area, ";
+  }
+  text += meaning.solid_parts == 0
+              ? "taken as a surface"
+              : "taken as " + counted(meaning.solid_parts, "solid part", "solid parts") + " by counting its faces";
+  if (meaning.solid_parts > 0 && meaning.surface_parts > 0) {
+    text += "; " + counted(meaning.surface_parts, "part has", "parts have") + " faces that bound nothing: surfaces";
+  }
+  return text;
 }
 
 // As the solid that it bounds, else as what it means.
-Polyhedron from_any_mesh(const Mesh& mesh, const std::string& path, Messages* messages, const Monitor& monitor) {
+Polyhedron from_any_mesh(const Mesh& mesh, const std::string& path, const MeshOptions& options, Messages* messages) {
   if (mesh.face_count() == 0) throw InputError(path + ": the mesh has no faces");
-  std::variant<Polyhedron, MeshRefusal> made = try_from_mesh(mesh, {.monitor = monitor}, messages);
-  if (auto* solid = std::get_if<Polyhedron>(&made)) return std::move(*solid);
-  const std::string& complaint = std::get<MeshRefusal>(made).text;
-  MeshMeaning meaning = meaning_of(mesh, monitor);
+  std::string complaint = "parts of it are inside out";
+  try {
+    if (std::optional<Polyhedron> solid = by_rule(mesh, options, messages)) return *std::move(solid);
+  } catch (const InputError& error) {
+    if (options.crossings == Crossings::kRefuse) throw InputError(path + ": " + error.what());
+    complaint = error.what();
+  }
+  MeshMeaning meaning = meaning_of(mesh, options.monitor);
   if (messages != nullptr) {
-    std::string text = path + ": the mesh bounds no solid as it is (" + complaint + "), ";
-    if (meaning.duplicate_faces > 0) {
-      text += counted(meaning.duplicate_faces, "face occurs", "faces occur") + " twice or has no area, ";
-    }
-    text += meaning.solid_parts == 0
-                ? "taken as a surface"
-                : "taken as " + counted(meaning.solid_parts, "solid part", "solid parts") + " by counting its faces";
-    if (meaning.solid_parts > 0 && meaning.surface_parts > 0) {
-      text += "; " + counted(meaning.surface_parts, "part has", "parts have") + " faces that bound nothing: surfaces";
-    }
-    messages->push_back(text);
+    messages->push_back(path + ": the mesh bounds no solid as it is (" + complaint + "), " + meaning_text(meaning));
   }
   return std::move(meaning.set);
 }
@@ -63,34 +89,42 @@ std::vector<Rational3> vertices_of(const Polyhedron& set) {
 
 }  // namespace
 
-Polyhedron read_shape_file(const std::string& path, Messages* messages, Rational3* mean, const Monitor& monitor) {
-  if (std::filesystem::is_directory(path)) throw InputError(path + ": is a folder, not a file");
-  if (!std::filesystem::is_regular_file(path)) throw InputError(path + ": no such file");
-  const std::string extension = lower_extension(path);
-  if (extension == "nef" || extension == "nef3") {
-    Polyhedron set = read_polyhedron(path, {.monitor = monitor}, messages);
+Polyhedron read_shape_file(const std::string& path, const MeshOptions& options, Messages* messages, Rational3* mean) {
+  const PartPath at = part_path(path);
+  if (names_tile_folder(path)) {
+    Polyhedron set = read_file_or_tiles(path, options, messages);
     if (mean != nullptr) *mean = mean_of(vertices_of(set));
     return set;
   }
-  if (!is_mesh_extension(extension)) {
+  if (std::filesystem::is_directory(at.file)) throw InputError(path + ": is a folder, not a file");
+  if (!std::filesystem::is_regular_file(at.file)) throw InputError(path + ": no such file");
+  const std::string extension = lower_extension(at.file);
+  if (is_set_extension(extension)) {
+    Polyhedron set = read_polyhedron(path, options, messages);
+    if (mean != nullptr) *mean = mean_of(vertices_of(set));
+    return set;
+  }
+  if (find_mesh_format(extension) == nullptr) {
     const Mesh mesh = read_with_assimp(path, mean);
-    return from_any_mesh(mesh, path, messages, monitor);
+    return from_any_mesh(mesh, path, options, messages);
   }
   const Mesh mesh = read_mesh(path);
   if (mean != nullptr) *mean = mean_of(mesh.vertices);
-  return from_any_mesh(mesh, path, messages, monitor);
+  return from_any_mesh(mesh, path, options, messages);
 }
 
-Polyhedron shape_of_text(const std::string& text, const std::string& folder, Messages* messages,
-                         const Monitor& monitor) {
+Polyhedron shape_of_text(const std::string& text, const std::string& folder, const MeshOptions& meshes,
+                         Messages* messages) {
   const std::filesystem::path path = std::filesystem::path(folder) / text;
   std::error_code ignored;
-  if (!text.empty() && std::filesystem::exists(path, ignored)) {
-    return read_shape_file(path.string(), messages, nullptr, monitor);
+  if (!text.empty() && std::filesystem::exists(part_path(path.string()).file, ignored)) {
+    return read_shape_file(path.string(), meshes, messages);
   }
   ExpressionOptions options;
   options.load = [&](const std::string& file, const Monitor& own) {
-    return read_shape_file((std::filesystem::path(folder) / file).string(), messages, nullptr, own);
+    MeshOptions watched = meshes;
+    watched.monitor = own;
+    return read_shape_file((std::filesystem::path(folder) / file).string(), watched, messages);
   };
   options.minkowski = [](const Polyhedron& a, const Polyhedron& b, const Monitor& own) {
     minkowski::MinkowskiOptions sum;
@@ -99,7 +133,7 @@ Polyhedron shape_of_text(const std::string& text, const std::string& folder, Mes
   };
   options.ball = minkowski::inner_ball;
   options.hull = minkowski::hull;
-  options.monitor = monitor;
+  options.monitor = meshes.monitor;
   try {
     return evaluate_expression(text, options);
   } catch (const ExpressionError& error) {

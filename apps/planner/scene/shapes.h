@@ -5,21 +5,22 @@
 
 #include <string>
 
-#include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 #include "nef/forward.h"
 
 namespace nef::planner {
 
-/// The set in a mesh or nef file, by extension; meshes of other formats are read through assimp.
-/// A mesh that bounds no solid becomes a surface, with a message. `mean`, if not null, receives the
-/// mean of the mesh's vertices (as assimp joins them). Throws InputError.
-Polyhedron read_shape_file(const std::string& path, Messages* messages, Rational3* mean = nullptr,
-                           const Monitor& monitor = {});
+/// The set in a mesh or nef file or a folder of tiles, by extension; meshes of other formats are read through assimp. A
+/// mesh becomes what from_mesh makes of it by the options. If that is nothing, or if Crossings::kUnion would leave out
+/// what is inside out, it becomes what it means (meaning_of), maybe a surface, with a message; with Crossings::kRefuse
+/// it is an error. `mean`, if not null, receives the mean of the mesh's vertices (as assimp joins them). Throws
+/// InputError.
+Polyhedron read_shape_file(const std::string& path, const MeshOptions& options, Messages* messages,
+                           Rational3* mean = nullptr);
 
 /// What a string in a scene stands for: a file (relative to `folder`) or an expression of `nef eval`.
-Polyhedron shape_of_text(const std::string& text, const std::string& folder, Messages* messages,
-                         const Monitor& monitor = {});
+Polyhedron shape_of_text(const std::string& text, const std::string& folder, const MeshOptions& options,
+                         Messages* messages);
 
 /// A mesh file through assimp: all meshes of the scene with their transformations; faces that occur
 /// twice (double-sided models) are kept once, vertices at equal places are one.

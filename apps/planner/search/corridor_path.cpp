@@ -1,15 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A* over cubes of which those that the boundary enters are dear, in the way of [Bohlin, Kavraki 2000]: what a way
-// through such cubes is worth is found out when one is wanted. There free space is cut out, and its roadmap tells.
+// through such cubes is worth is found out when one is wanted. There free space is cut out, and its roadmap tells. The
+// empty cubes are grouped into regions, so that whether a way through them alone exists is known beforehand.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
 #include <utility>
 
-#include "apps/planner/search/grid_steps.h"
+#include "apps/planner/free_space/segments.h"
+#include "apps/planner/search/a_star.h"
 #include "apps/planner/search/search.h"
+#include "nef/base/union_find.h"
 #include "nef/construct/construct.h"
 
 namespace nef::planner {
@@ -25,10 +28,156 @@ constexpr Price kClosed = 0;
 constexpr Price kEmpty = 1;
 constexpr Price kPassage = 4;
 constexpr Price kEntered = 32;
-constexpr double kHaste = 1.02;           // the estimates are exact in empty country: a hair more breaks ties forward
-constexpr int kCuts = 8;                  // so many are tried in vain
-constexpr std::size_t kSmallPart = 1000;  // a roadmap of more cells than so many, or an eighth of all, is not made
-constexpr std::uint32_t kMargin = 2;      // cubes around those that a cut is for
+constexpr double kHaste = 1.02;          // the estimates are exact in empty country: a hair more breaks ties forward
+constexpr int kCuts = 8;                 // so many are tried in vain
+constexpr std::size_t kSmallCut = 1000;  // a roadmap of more cells than so many, or an eighth of all, is not made
+constexpr int kReach = 3;                // cubes around an end that are tried
+constexpr std::size_t kEntrances = 4;    // and how many of them are taken
+constexpr std::uint32_t kMargin = 2;     // cubes around those that a cut is for
+
+// Calls visit(cube) for the cubes from one to another in each coordinate, and all that are at most so many steps from
+// them.
+template <typename Visit>
+void for_each_around(const EmptyGrid& grid, const Cube& low, const Cube& high, int reach, const Visit& visit) {
+  std::array<std::array<std::int64_t, 2>, 3> range{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    range[i] = {std::max<std::int64_t>(0, std::int64_t{low[i]} - reach),
+                std::min<std::int64_t>(grid.counts()[i] - 1, std::int64_t{high[i]} + reach)};
+  }
+  for (auto z = range[2][0]; z <= range[2][1]; ++z) {
+    for (auto y = range[1][0]; y <= range[1][1]; ++y) {
+      for (auto x = range[0][0]; x <= range[0][1]; ++x) {
+        visit(Cube{static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), static_cast<std::uint32_t>(z)});
+      }
+    }
+  }
+}
+
+// To one of the 26 neighbours of a cube; differences are modulo 2^32.
+struct GridStep {
+  AStar::Node offset = 0;
+  Cube by{};
+  double length = 0;  // in sides
+
+  [[nodiscard]] Cube from(const Cube& at) const { return {at[0] + by[0], at[1] + by[1], at[2] + by[2]}; }
+};
+
+// The length of the shortest way in steps to the 26 neighbours, in sides.
+double steps_between(const Cube& a, const Cube& b) {
+  const auto apart = [&](std::size_t i) { return std::fabs(static_cast<double>(a[i]) - static_cast<double>(b[i])); };
+  const double x = apart(0);
+  const double y = apart(1);
+  const double z = apart(2);
+  const double least = std::min({x, y, z});
+  const double most = std::max({x, y, z});
+  const double middle = x + y + z - least - most;
+  return std::sqrt(3) * least + std::sqrt(2) * (middle - least) + (most - middle);
+}
+
+std::vector<GridStep> grid_steps(const EmptyGrid& grid) {
+  const Cube middle{1, 1, 1};
+  std::vector<GridStep> result;
+  for_each_around(grid, middle, middle, 1, [&](const Cube& next) {
+    if (next == middle) return;
+    GridStep step{grid.index(next) - grid.index(middle), {}, steps_between(middle, next)};
+    for (std::size_t i = 0; i < 3; ++i) step.by[i] = next[i] - middle[i];
+    result.push_back(step);
+  });
+  return result;
+}
+
+Rational3 exact_centre(const EmptyGrid& grid, const Cube& cube) {
+  const Vector3d x = grid.centre(cube);
+  return {exact_rational(x[0]), exact_rational(x[1]), exact_rational(x[2])};
+}
+
+// The empty cubes by regions: those joined by steps to the six neighbours that share a face. O(cubes) to make.
+class EmptyRegions {
+ public:
+  explicit EmptyRegions(const EmptyGrid& grid);
+
+  // The region of an empty cube, a number below size(). O(log runs).
+  [[nodiscard]] std::uint32_t of(std::uint32_t cube);
+  [[nodiscard]] std::size_t size() const { return runs_.size(); }
+  // How many cubes the region of an empty cube has. O(runs).
+  [[nodiscard]] std::size_t cubes_around(std::uint32_t cube);
+
+ private:
+  // Empty cubes in a row along the first axis.
+  struct Run {
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;
+  };
+
+  std::vector<Run> runs_;
+  UnionFind same_;  // runs of one region
+};
+
+// Runs of neighbouring rows are united where they overlap. Rows at the rim have none.
+EmptyRegions::EmptyRegions(const EmptyGrid& grid) {
+  const std::uint32_t length = grid.counts()[0];
+  const std::uint32_t rows = grid.counts()[1] * grid.counts()[2];
+  std::vector<std::size_t> first;  // of each row, and one more
+  for (std::uint32_t row = 0; row < rows; ++row) {
+    first.push_back(runs_.size());
+    const std::uint32_t end = (row + 1) * length;
+    for (std::uint32_t cube = row * length; cube < end; ++cube) {
+      if (!grid.is_empty(cube)) continue;
+      const std::uint32_t begin = cube;
+      while (grid.is_empty(cube)) ++cube;  // the last one of a row is not
+      runs_.push_back({begin, cube});
+    }
+  }
+  first.push_back(runs_.size());
+  same_.reset(runs_.size());
+  for (const std::uint32_t step : {1U, grid.counts()[1]}) {
+    for (std::uint32_t row = step; row < rows; ++row) {
+      std::size_t a = first[row];
+      std::size_t b = first[row - step];
+      while (a < first[row + 1] && b < first[row - step + 1]) {
+        const std::uint32_t begin = runs_[b].begin + step * length;
+        const std::uint32_t end = runs_[b].end + step * length;
+        if (begin < runs_[a].end && runs_[a].begin < end) {
+          same_.unite(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+        }
+        ++(runs_[a].end < end ? a : b);
+      }
+    }
+  }
+}
+
+std::uint32_t EmptyRegions::of(std::uint32_t cube) {
+  const auto after =
+      std::upper_bound(runs_.begin(), runs_.end(), cube, [](std::uint32_t c, const Run& run) { return c < run.begin; });
+  return same_.find(static_cast<std::uint32_t>(after - runs_.begin() - 1));
+}
+
+std::size_t EmptyRegions::cubes_around(std::uint32_t cube) {
+  const std::uint32_t region = of(cube);
+  std::size_t count = 0;
+  for (std::uint32_t i = 0; i < runs_.size(); ++i) {
+    if (same_.find(i) == region) count += runs_[i].end - runs_[i].begin;
+  }
+  return count;
+}
+
+// Some empty cubes near a point whose centres it sees, nearest first.
+std::vector<Cube> entrances(const FreeSpace& free, const CellFilter& filter, const Rational3& point) {
+  const EmptyGrid& grid = free.grid();
+  const Vector3d at = to_vector(point);
+  std::vector<std::pair<double, Cube>> near;
+  const Cube own = grid.nearest(at);
+  for_each_around(grid, own, own, kReach, [&](const Cube& cube) {
+    if (grid.is_empty(grid.index(cube))) near.emplace_back((grid.centre(cube) - at).norm(), cube);
+  });
+  std::sort(near.begin(), near.end());
+  std::vector<Cube> result;
+  for (const auto& [distance, cube] : near) {
+    if (result.size() == kEntrances) break;
+    if (segment_allowed(free, filter, point, exact_centre(grid, cube))) result.push_back(cube);
+  }
+  return result;
+}
 
 class CorridorSearch {
  public:
@@ -65,28 +214,28 @@ class CorridorSearch {
  private:
   struct End {
     Rational3 point;
-    AStar::Node own = 0;               // the cube that it is in
-    std::vector<AStar::Node> portals;  // empty ones that it sees
+    AStar::Node own = 0;                 // the cube that it is in
+    std::vector<AStar::Node> entrances;  // empty ones that it sees
   };
   enum : std::int8_t { kUnknown, kNo, kYes };
 
   [[nodiscard]] End end_at(const Rational3& point) const {
     End end{point, grid_.index(grid_.nearest(to_vector(point))), {}};
-    for (const Cube& cube : portals(free_, filter_, point)) end.portals.push_back(grid_.index(cube));
+    for (const Cube& cube : entrances(free_, filter_, point)) end.entrances.push_back(grid_.index(cube));
     return end;
   }
 
-  // The number of cubes in the largest of the regions of its portals.
+  // The number of cubes in the largest of the regions of its entrances.
   [[nodiscard]] std::size_t cubes_around(const End& end) {
     std::size_t most = 0;
-    for (const AStar::Node portal : end.portals) most = std::max(most, regions_.cubes_around(portal));
+    for (const AStar::Node entrance : end.entrances) most = std::max(most, regions_.cubes_around(entrance));
     return most;
   }
 
   // True if there is a way between the ends that leads through empty cubes only.
   [[nodiscard]] bool share_a_region() {
-    return std::any_of(from_.portals.begin(), from_.portals.end(), [&](AStar::Node a) {
-      return std::any_of(to_.portals.begin(), to_.portals.end(),
+    return std::any_of(from_.entrances.begin(), from_.entrances.end(), [&](AStar::Node a) {
+      return std::any_of(to_.entrances.begin(), to_.entrances.end(),
                          [&](AStar::Node b) { return regions_.of(a) == regions_.of(b); });
     });
   }
@@ -101,7 +250,7 @@ class CorridorSearch {
     }
     if (is_wide) return;
     for (const TightPassage& passage : free_.passages()) make_cheaper(passage.cells);
-    for (const TouchingRooms& place : free_.touching_rooms()) make_cheaper(place.cells);
+    for (const TouchingVolumes& touching : free_.touching_volumes()) make_cheaper(touching.cells);
   }
 
   void make_cheaper(const std::vector<CellId>& cells) {
@@ -138,12 +287,12 @@ class CorridorSearch {
     const auto offer = [&](const Cube& cube, AStar::Node node, AStar::Node before, double cost) {
       search.offer(node, before, cost, cost + kHaste * steps_between(cube, goal));
     };
-    const std::vector<AStar::Node> ends = to_.portals.empty() ? std::vector<AStar::Node>{to_.own} : to_.portals;
-    for (const AStar::Node portal : from_.portals) {
-      const Cube cube = grid_.cube(portal);
-      offer(cube, portal, AStar::kNone, (grid_.centre(cube) - to_vector(from_.point)).norm() / grid_.side());
+    const std::vector<AStar::Node> ends = to_.entrances.empty() ? std::vector<AStar::Node>{to_.own} : to_.entrances;
+    for (const AStar::Node entrance : from_.entrances) {
+      const Cube cube = grid_.cube(entrance);
+      offer(cube, entrance, AStar::kNone, (grid_.centre(cube) - to_vector(from_.point)).norm() / grid_.side());
     }
-    if (from_.portals.empty()) offer(grid_.cube(from_.own), from_.own, AStar::kNone, 0);
+    if (from_.entrances.empty()) offer(grid_.cube(from_.own), from_.own, AStar::kNone, 0);
     while (const std::optional<AStar::Node> node = search.next()) {
       monitor_.check_interruption();
       if (std::find(ends.begin(), ends.end(), *node) != ends.end()) return search.way_to(*node);
@@ -195,8 +344,8 @@ class CorridorSearch {
   [[nodiscard]] std::optional<Points> way_through(std::span<const AStar::Node> cubes, const Rational3& a,
                                                   const Rational3& b) const {
     const std::array<Rational3, 2> box = box_around(cubes, a, b);
-    const FreeSpace part(intersect(free_.set(), make_box(box[0], box[1], monitor_), 1, monitor_));
-    if (part.cells().size() > std::max(kSmallPart, free_.cells().size() / 8)) return std::nullopt;
+    const FreeSpace part(intersect(free_.set(), make_box(box[0], box[1], monitor_), monitor_));
+    if (part.cells().size() > std::max(kSmallCut, free_.cells().size() / 8)) return std::nullopt;
     CellFilter filter(part);
     for (CellId cell = 0; cell < part.cells().size(); ++cell) {
       if (part.is_free(cell) && part.local_dimension(cell) < min_dimension_) filter.forbid(cell);

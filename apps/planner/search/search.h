@@ -21,7 +21,7 @@ std::optional<std::vector<Rational3>> corridor_path(const FreeSpace& free, const
                                                     const Rational3& start, const Rational3& goal,
                                                     const Monitor& monitor);
 
-/// As corridor_path by the roadmap of all of free space (A* over stations), which is made if it is not there: nothing
+/// As corridor_path by the roadmap of all of free space (A* over portals), which is made if it is not there: nothing
 /// if there is no path. With `clearance`, rather through volumes than in contact.
 std::optional<std::vector<Rational3>> roadmap_path(const FreeSpace& free, const CellFilter& filter,
                                                    const Rational3& start, const Rational3& goal, bool clearance,

@@ -13,7 +13,7 @@
 #include <iterator>
 
 #include "apps/minkowski/minkowski.h"
-#include "apps/planner/turning/reachable_part.h"
+#include "apps/planner/scene/reachable_part.h"
 #include "apps/planner/turning/turning_proof.h"
 #include "nef/base/error.h"
 #include "nef/base/union_find.h"
@@ -40,7 +40,7 @@ std::optional<std::vector<Points>> pieces_of(const Polyhedron& set, const Monito
     pieces.push_back(cell.mesh.vertices);
     hulls.push_back(convex_hull(pieces.back(), monitor));
   }
-  if (!subtract(unite_all(hulls, 1, monitor), set, 1, monitor).is_empty()) return std::nullopt;
+  if (!subtract(unite_all(hulls, monitor), set, monitor).is_empty()) return std::nullopt;
   return pieces;
 }
 
@@ -119,9 +119,9 @@ class ProofCheck {
       // Between the ends the face turns furthest over the point where its normal points along the arm.
       const bool passes = dot(n, cross(across(from), arm)) > 0 && dot(n, cross(arm, across(to))) > 0;
       if (!passes) continue;
-      const Rational room = offset - dot(normal, n) * dot(point, n) / q_.axis.square();
+      const Rational slack = offset - dot(normal, n) * dot(point, n) / q_.axis.square();
       const Rational3 lever = across(normal);
-      if (room < 0 || room * room < dot(lever, lever) * dot(arm, arm)) return false;
+      if (slack < 0 || slack * slack < dot(lever, lever) * dot(arm, arm)) return false;
     }
     return true;
   }
@@ -154,8 +154,8 @@ class ProofCheck {
         forbidden.push_back(scene_.contact == ContactRule::kAllow ? interior(hull, monitor_) : hull);
       }
     }
-    const Polyhedron united = unite_all(forbidden, 1, monitor_);
-    return split(scene_.box ? subtract(make_box((*scene_.box)[0], (*scene_.box)[1], monitor_), united, 1, monitor_)
+    const Polyhedron united = unite_all(forbidden, monitor_);
+    return split(scene_.box ? subtract(make_box((*scene_.box)[0], (*scene_.box)[1], monitor_), united, monitor_)
                             : complement(united),
                  monitor_);
   }
@@ -181,7 +181,7 @@ class ProofCheck {
     for (std::size_t i = 0; i + 1 < layers_.size(); ++i) {
       for (std::size_t a = 0; a < layers_[i].components.size(); ++a) {
         for (std::size_t b = 0; b < layers_[i + 1].components.size(); ++b) {
-          if (intersect(layers_[i].components[a], layers_[i + 1].components[b], 1, monitor_).is_empty()) continue;
+          if (intersect(layers_[i].components[a], layers_[i + 1].components[b], monitor_).is_empty()) continue;
           joined_.unite(static_cast<std::uint32_t>(layers_[i].first + a),
                         static_cast<std::uint32_t>(layers_[i + 1].first + b));
         }

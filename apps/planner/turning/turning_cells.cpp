@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "apps/planner/turning/reachable_part.h"
+#include "apps/planner/scene/reachable_part.h"
 #include "nef/base/error.h"
 
 namespace nef::planner {
@@ -42,9 +42,7 @@ bool has_point_in(const FreeSpace& of, std::uint32_t component, const FreeSpace&
   const std::size_t step = std::max<std::size_t>(1, cells.size() / kPoints);
   for (std::size_t i = 0; i < cells.size(); i += step) {
     const std::vector<Rational3> ends = of.vertices(cells[i]);
-    Rational3 point = ends.front();
-    for (std::size_t k = 0; k < 3; ++k) point[k] = (point[k] + ends.back()[k]) / 2;
-    const CellId at = in.locate(ExactPoint(point));
+    const CellId at = in.locate(ExactPoint(point_between(ends.front(), ends.back(), Rational(1, 2))));
     if (in.is_free(at) && in.component(at) == other) return true;
   }
   return false;
@@ -59,14 +57,7 @@ std::vector<Rational3> points_of_components(const FreeSpace& free, const Monitor
   for (CellId cell = 0; cell < free.cells().size(); ++cell) {
     if (!free.is_free(cell) || found[free.component(cell)]) continue;
     found[free.component(cell)] = true;
-    Rational3& point = points[free.component(cell)];
-    if (free.complex().vertex_count() == 0) continue;  // all of space
-    if (free.cells().dimension(cell) == 0) {
-      point = free.vertices(cell).front();
-    } else {
-      free.build_roadmap(monitor);
-      point = free.zones().interior_point(free.zones().zone_in(cell));
-    }
+    points[free.component(cell)] = free.point_in(cell, monitor);
   }
   return points;
 }
@@ -87,8 +78,8 @@ const TurningCells::Slice& TurningCells::slice_at(const Turn& turn, const Monito
   Slice& slice = place->second;
   if (is_new) {
     slice.free = free_space_of(robot_.pieces_at(turn), monitor);
-    slice.first_node = static_cast<Node>(places_.size());
-    for (std::uint32_t i = 0; i < slice.free->components().size(); ++i) places_.push_back({slice.free.get(), i});
+    slice.first_node = static_cast<Node>(nodes_.size());
+    for (std::uint32_t i = 0; i < slice.free->components().size(); ++i) nodes_.push_back({slice.free.get(), i});
   }
   return slice;
 }
@@ -147,8 +138,8 @@ void TurningCells::find_bridges(const Turn& low, const Monitor& monitor) {
 }
 
 bool TurningCells::surely_meet(Node a, Node b) const {
-  const Place& at_a = places_[a];
-  const Place& at_b = places_[b];
+  const SliceComponent& at_a = nodes_[a];
+  const SliceComponent& at_b = nodes_[b];
   if (at_a.free == at_b.free) return false;
   return has_point_in(*at_a.free, at_a.component, *at_b.free, at_b.component) ||
          has_point_in(*at_b.free, at_b.component, *at_a.free, at_a.component);

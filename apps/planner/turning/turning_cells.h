@@ -61,7 +61,7 @@ class TurningCells {
   Node first_node(const Turn& turn, const Monitor& monitor) { return slice_at(turn, monitor).first_node; }
   /// The node of a pose; kNoNode if it is not free.
   Node node_of(const Pose& pose, const Monitor& monitor);
-  [[nodiscard]] std::size_t node_count() const { return places_.size(); }
+  [[nodiscard]] std::size_t node_count() const { return nodes_.size(); }
 
   /// Adds a cell about which nothing is known.
   void add(const Turn& low, const Turn& high, const Monitor& monitor);
@@ -80,8 +80,8 @@ class TurningCells {
     std::shared_ptr<const FreeSpace> free;
     Node first_node = 0;
   };
-  // Where a node is.
-  struct Place {
+  // What a node stands for.
+  struct SliceComponent {
     const FreeSpace* free = nullptr;
     std::uint32_t component = 0;
   };
@@ -96,7 +96,7 @@ class TurningCells {
   minkowski::FixedObstacles obstacles_;
   std::shared_ptr<const FreeSpace> without_robot_;
   std::map<Turn, Slice> slices_;
-  std::vector<Place> places_;  // of nodes
+  std::vector<SliceComponent> nodes_;  // of nodes
   std::vector<Bridge> bridges_;
   std::map<Turn, AngleCell> cells_;
   std::size_t looked_at_ = 0;

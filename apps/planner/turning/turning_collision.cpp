@@ -11,7 +11,7 @@
 
 #include "apps/minkowski/minkowski.h"
 #include "apps/planner/free_space/hulls_apart.h"
-#include "apps/planner/turning/reachable_part.h"
+#include "apps/planner/scene/reachable_part.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 #include "nef/geometry/vectors.h"
@@ -60,14 +60,6 @@ void TurningCollision::measure(Solid& solid) {
   }
 }
 
-bool TurningCollision::in_box(const Rational3& position) const {
-  if (!box_) return true;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (position[k] < (*box_)[0][k] || position[k] > (*box_)[1][k]) return false;
-  }
-  return true;
-}
-
 Separation TurningCollision::separation(const Solid& a, const Solid& b) {
   const double error = plane_error(a.rough, b.rough);
   for (Eigen::Index k = 0; k < 3; ++k) {
@@ -76,44 +68,9 @@ Separation TurningCollision::separation(const Solid& a, const Solid& b) {
   return plane_between(a.rough, b.rough);
 }
 
-// A point moves to the other side of the plane that it is farthest beyond, again and again, until it is behind all by a
-// margin m = 2 plane_error, 1024u of the reach R of both. Let n be a rounded normal, within 8u of the true one N in
-// each coordinate (4u, and 4u more of a rotation of rounded entries). With the plane through the foremost rounded
-// vertex q, N p - N q for a true vertex is at most n p - n q and 24u R for each of p and q, 3 kImageError R for q's
-// error and 6u R for the roundings of the products, p being no farther out than R: below m.
 bool TurningCollision::surely_overlap(const Solid& a, const Solid& b) {
-  const double reach = a.rough.reach + b.rough.reach;
-  const double margin = 2 * plane_error(a.rough, b.rough);
-  struct Side {
-    Vector3d normal;
-    double offset;
-  };
-  std::vector<Side> sides;
-  Vector3d p = (a.low + a.high + b.low + b.high) / 4;
-  for (const Solid* solid : {&a, &b}) {
-    for (const Vector3d& n : solid->rough.normals) {
-      double most = -HUGE_VAL;
-      for (const Vector3d& q : solid->rough.points) most = std::max(most, n.dot(q));
-      sides.push_back({n, most - margin});
-    }
-  }
-  constexpr int kRounds = 20;
-  for (int round = 0; round < kRounds; ++round) {
-    if (!(p.lpNorm<Eigen::Infinity>() <= reach && reach < 1e300)) return false;
-    const Side* worst = nullptr;
-    double beyond = 0;
-    for (const Side& side : sides) {
-      const double there = side.normal.dot(p) - side.offset;
-      if (worst == nullptr || there > beyond) {
-        worst = &side;
-        beyond = there;
-      }
-    }
-    if (beyond < 0) return true;
-    const double step = 1.5 * beyond + 1e-6 * reach;
-    p -= step * worst->normal;
-  }
-  return false;
+  return have_inner_point({a.rough.points, a.rough.normals}, {b.rough.points, b.rough.normals},
+                          a.rough.reach + b.rough.reach, 2 * plane_error(a.rough, b.rough));
 }
 
 // At a pose, or at one of three on the way.
@@ -200,7 +157,7 @@ TurningCollision::Solid TurningCollision::swept(std::size_t piece, const Swept& 
 }
 
 bool TurningCollision::is_free_at(const Turn& turn, const Rational3& from, const Rational3& to) const {
-  if (!in_box(from) || !in_box(to)) return false;
+  if (!is_in_box(from, box_) || !is_in_box(to, box_)) return false;
   const Pose begin{from, turn};
   const Pose end{to, turn};
   const Swept way = sweep(begin, end);
@@ -233,7 +190,7 @@ bool TurningCollision::is_free(const Pose& from, const Pose& to, int depth) cons
   if (from.turn == to.turn) return is_free_at(from.turn, from.position, to.position);
   if (!is_free(to)) return false;
   const auto surely_free = [&] {
-    if (!in_box(from.position) || !in_box(to.position)) return false;
+    if (!is_in_box(from.position, box_) || !is_in_box(to.position, box_)) return false;
     const Swept way = sweep(from, to);
     for (std::size_t i = 0; i < shapes_.size(); ++i) {
       const Solid solid = swept(i, way);
@@ -252,7 +209,7 @@ bool TurningCollision::is_free(const Pose& from, const Pose& to, int depth) cons
   if (abs(to.turn - from.turn) <= 1 && surely_free()) return true;
   if (depth == 0) return false;
   Pose middle = from;
-  for (std::size_t k = 0; k < 3; ++k) middle.position[k] = (from.position[k] + to.position[k]) / 2;
+  middle.position = point_between(from.position, to.position, Rational(1, 2));
   middle.turn = axis().turn_of_degrees(exact_rational((axis().degrees_of(from.turn) + axis().degrees_of(to.turn)) / 2));
   return is_free(from, middle, depth - 1) && is_free(middle, to, depth - 1);
 }

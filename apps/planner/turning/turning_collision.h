@@ -56,7 +56,6 @@ class TurningCollision {
     bool moves = false;
   };
   static void measure(Solid& solid);
-  [[nodiscard]] bool in_box(const Rational3& position) const;
   // What doubles find: see Separation.
   static Separation separation(const Solid& a, const Solid& b);
   // True if doubles find a point that is inside both with room to spare; the normals must be those of all faces.

@@ -15,7 +15,8 @@ TurningQuestion question_of(const Scene& scene) {
   question.low = question.axis.turn_of_degrees(r.low);
   question.high = question.axis.turn_of_degrees(r.high);
   const auto in_range = [&](const Rational& degrees) {
-    const Turn turn = question.axis.turn_of_degrees(degrees);
+    Turn turn = question.axis.turn_of_degrees(degrees);
+    if (turn >= question.low && turn <= question.high) return turn;
     const Turn moved = turn + 4 * ceiling_of((question.low - turn) / 4);
     return moved <= question.high ? moved : turn;
   };

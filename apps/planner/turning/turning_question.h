@@ -16,7 +16,9 @@ struct Pose {
 
 struct TurningQuestion {
   TurningAxis axis{{0, 0, 1}};
-  Turn low = 0;  ///< the range of angles; one that is 4 wide is the full circle, closed to a ring
+  /// The range of angles. One that is 4 wide is the full circle, closed to a ring. In a wider one (a joint whose cable
+  /// winds up, say) angles that differ by full turns are different.
+  Turn low = 0;
   Turn high = 4;
   Pose start;
   Pose goal;
@@ -25,7 +27,8 @@ struct TurningQuestion {
 };
 
 /// The question of a scene with a rotation, a start and a goal; InputError if one of these is missing. Angles become
-/// rational turns; those of start and goal are taken into the range by full turns, if they can be.
+/// rational turns; those of start and goal that are outside the range are
+/// taken into it by full turns, if they can be.
 TurningQuestion question_of(const Scene& scene);
 
 }  // namespace nef::planner

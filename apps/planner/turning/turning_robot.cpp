@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/turning/turning_robot.h"
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "apps/minkowski/minkowski.h"
@@ -20,7 +22,7 @@ Mesh turned(Mesh mesh, const AffineMap& rotation) {
 Polyhedron united(const std::vector<Mesh>& pieces, const Monitor& monitor) {
   std::vector<Polyhedron> parts;
   for (const Mesh& piece : pieces) parts.push_back(convex_hull(piece.vertices, monitor));
-  return unite_all(parts, 1, monitor);
+  return unite_all(parts, monitor);
 }
 
 std::optional<Mesh> inner_of_piece(const TurningRobot::Piece& piece, const TurningAxis& axis, const Turn& a,
@@ -50,6 +52,16 @@ void require_turning_robot(const Polyhedron& robot) {
   if (!robot.is_bounded() || robot.is_empty() || !robot.is_regular()) {
     throw InputError("a robot that turns must be a bounded solid without surfaces, curves or points sticking out");
   }
+}
+
+double reach_of(const Polyhedron& robot) {
+  double sum = 0;
+  const std::array<Rational3, 2> box = *bounding_box(robot);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double x = std::max(std::fabs(nearest_double(box[0][k])), std::fabs(nearest_double(box[1][k])));
+    sum += x * x;
+  }
+  return std::sqrt(sum);
 }
 
 TurningRobot::TurningRobot(const Polyhedron& robot, const TurningAxis& axis, const Monitor& monitor)

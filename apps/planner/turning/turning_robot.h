@@ -14,6 +14,10 @@ namespace nef::planner {
 /// Throws InputError unless a robot is a bounded solid, as one that turns must be.
 void require_turning_robot(const Polyhedron& robot);
 
+/// How far a robot's farthest point is from its reference point at most, in doubles: that of a corner of the box around
+/// it.
+double reach_of(const Polyhedron& robot);
+
 /// A solid robot that turns about an axis through its reference point, the origin.
 class TurningRobot {
  public:

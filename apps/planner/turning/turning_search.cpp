@@ -27,8 +27,8 @@ namespace nef::planner {
 namespace {
 
 // A component of an inner free space: the lower end of its cell, and which component.
-using Room = std::pair<Turn, std::uint32_t>;
-using Rooms = std::set<Room>;
+using InnerComponent = std::pair<Turn, std::uint32_t>;
+using InnerComponents = std::set<InnerComponent>;
 
 // From a node to another one within a cell.
 struct Step {
@@ -65,7 +65,7 @@ class TurningSearch {
     if (goal == kNoNode) return finished(TurningAnswer::Status::kInvalidGoal);
     make_first_cells();
     while (true) {
-      Rooms entered;
+      InnerComponents entered;
       const std::optional<std::vector<Step>> steps = steps_in_question(start, goal, entered);
       if (!steps) {
         answer_.proof = proof_of(entered);
@@ -131,20 +131,20 @@ class TurningSearch {
 
   // A way from start to goal through components of inner free spaces, with as few steps as can be that no bridges
   // grant, and those steps of it; or nothing, and then `entered` are the components that are joined to the start.
-  [[nodiscard]] std::optional<std::vector<Step>> steps_in_question(Node start, Node goal, Rooms& entered) {
+  [[nodiscard]] std::optional<std::vector<Step>> steps_in_question(Node start, Node goal, InnerComponents& entered) {
     std::vector<std::vector<Node>> bridged(cells_.node_count());
     for (const Bridge& bridge : cells_.bridges()) {
       bridged[bridge.from].push_back(bridge.to);
       bridged[bridge.to].push_back(bridge.from);
     }
-    std::map<Room, std::vector<Node>> members;
-    std::vector<std::vector<Room>> rooms(cells_.node_count());
+    std::map<InnerComponent, std::vector<Node>> members;
+    std::vector<std::vector<InnerComponent>> inner(cells_.node_count());
     for (const auto& [low, cell] : cells_.cells()) {
       for (const auto& [turn, holds] : {std::pair(&cell.low, &cell.below), std::pair(&cell.high, &cell.above)}) {
         const Node first = cells_.first_node(*turn, monitor());
         for (std::uint32_t i = 0; i < holds->size(); ++i) {
           members[{low, (*holds)[i]}].push_back(first + i);
-          rooms[first + i].emplace_back(low, (*holds)[i]);
+          inner[first + i].emplace_back(low, (*holds)[i]);
         }
       }
     }
@@ -166,10 +166,10 @@ class TurningSearch {
       for (const Node next : bridged[entry.node]) {
         if (!done[next]) queue.push_front({next, entry.node, {}});
       }
-      for (const Room& room : rooms[entry.node]) {
-        if (!entered.insert(room).second) continue;
-        for (const Node next : members[room]) {
-          if (!done[next]) queue.push_back({next, entry.node, room.first});
+      for (const InnerComponent& component : inner[entry.node]) {
+        if (!entered.insert(component).second) continue;
+        for (const Node next : members[component]) {
+          if (!done[next]) queue.push_back({next, entry.node, component.first});
         }
       }
     }
@@ -222,9 +222,9 @@ class TurningSearch {
     return way;
   }
 
-  [[nodiscard]] TurningProof proof_of(const Rooms& start_side) const {
+  [[nodiscard]] TurningProof proof_of(const InnerComponents& start_side) const {
     TurningProof proof;
-    auto room = start_side.begin();
+    auto component = start_side.begin();
     for (const auto& [low, cell] : cells_.cells()) {
       proof.breakpoints.push_back(low);
       TurningProof::Cell& entry = proof.cells.emplace_back();
@@ -234,7 +234,8 @@ class TurningSearch {
         }
       }
       const std::vector<Rational3> points = points_of_components(*cell.inner, monitor());
-      for (; room != start_side.end() && room->first == low; ++room) entry.start_side.push_back(points[room->second]);
+      for (; component != start_side.end() && component->first == low; ++component)
+        entry.start_side.push_back(points[component->second]);
     }
     proof.breakpoints.push_back(q_.high);
     return proof;
@@ -331,9 +332,7 @@ TurningAnswer find_turning_path(const Scene& scene, const TurningQuestion& quest
       throw InputError("start and goal must be turned by angles of the range");
     }
   }
-  if (!(question.low < question.high) || question.high - question.low > 4) {
-    throw InputError("the range of angles must have an extent, and no more than a full circle");
-  }
+  if (!(question.low < question.high)) throw InputError("the range of angles must have an extent");
   if (const std::optional<TurningAnswer> invalid = invalid_end(scene, question, limits.monitor)) return *invalid;
   return TurningSearch(scene, question, limits).run();
 }

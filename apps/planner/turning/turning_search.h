@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "apps/planner/path/answer.h"
 #include "apps/planner/turning/turning_proof.h"
 #include "apps/planner/turning/turning_question.h"
 #include "nef/base/monitor.h"
@@ -28,7 +29,7 @@ struct TurnRange {
 };
 
 struct TurningAnswer {
-  enum class Status : std::uint8_t { kPath, kInfeasible, kUndecided, kInvalidStart, kInvalidGoal };
+  using Status = AnswerStatus;  ///< kPath, kInfeasible, kUndecided, kInvalidStart or kInvalidGoal
   Status status = Status::kUndecided;
   /// kPath: way-points; between two either the turn or the position stays. Angles go on where the full circle closes,
   /// so they may leave the range by full turns.

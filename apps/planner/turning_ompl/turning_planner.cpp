@@ -2,11 +2,11 @@
 #include "apps/planner/turning_ompl/turning_planner.h"
 
 #include <ompl/base/goals/GoalSampleableRegion.h>
-#include <ompl/config.h>
 #include <ompl/geometric/PathGeometric.h>
 
 #include <ostream>
 
+#include "apps/planner/ompl/own_planners.h"
 #include "nef/number/floor.h"
 
 namespace nef::planner {
@@ -43,6 +43,7 @@ void TurningPlanner::clear() {
 
 ob::PlannerStatus TurningPlanner::solve(const ob::PlannerTerminationCondition& ptc) {
   checkValidity();
+  warn_of_ignored_objective(*pdef_, name_);
   const auto& space = *static_cast<const TurningSpace*>(si_->getStateSpace().get());
   const auto into_range = [&](Pose pose) {
     pose.turn += 4 * ceiling_of((question_.low - pose.turn) / 4);
@@ -69,11 +70,7 @@ ob::PlannerStatus TurningPlanner::solve(const ob::PlannerTerminationCondition& p
     case TurningAnswer::Status::kInfeasible:
       pdef_->setSolutionNonExistenceProof(
           std::make_shared<TurningImpossibility>(si_, scene_, question_, *answer_->proof));
-#if defined(OMPL_VERSION_VALUE) && OMPL_VERSION_VALUE >= 1006000
-      return ob::PlannerStatus::INFEASIBLE;
-#else
-      return ob::PlannerStatus::ABORT;
-#endif
+      return infeasible();
     default:
       break;
   }

@@ -10,7 +10,7 @@
 #include <memory>
 #include <optional>
 
-#include "apps/planner/ompl/digits_parameter.h"
+#include "apps/planner/ompl/own_planners.h"
 #include "apps/planner/scene/scene.h"
 #include "apps/planner/turning/turning_search.h"
 #include "apps/planner/turning_ompl/turning_space.h"

@@ -10,16 +10,6 @@ namespace ob = ompl::base;
 
 namespace {
 
-double radius_of(const Polyhedron& robot) {
-  double sum = 0;
-  const std::array<Rational3, 2> box = *bounding_box(robot);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const double x = std::max(std::abs(nearest_double(box[0][k])), std::abs(nearest_double(box[1][k])));
-    sum += x * x;
-  }
-  return std::sqrt(sum);
-}
-
 ob::RealVectorBounds bounds_of(const Scene& scene, const TurningQuestion& question) {
   Rational3 low = question.start.position;
   Rational3 high = low;
@@ -29,11 +19,11 @@ ob::RealVectorBounds bounds_of(const Scene& scene, const TurningQuestion& questi
       high[k] = std::max(high[k], point[k]);
     }
   };
-  double room = 2 * radius_of(scene.robot) + 1;
+  double margin = 2 * reach_of(scene.robot) + 1;
   if (scene.box) {
     low = (*scene.box)[0];
     high = (*scene.box)[1];
-    room = 0;
+    margin = 0;
   } else {
     take(question.goal.position);
     for (const Polyhedron& obstacle : scene.obstacles) {
@@ -45,8 +35,8 @@ ob::RealVectorBounds bounds_of(const Scene& scene, const TurningQuestion& questi
   ob::RealVectorBounds bounds(3);
   for (unsigned k = 0; k < 3; ++k) {
     // OMPL refuses bounds without extent; the checker knows the box exactly.
-    bounds.setLow(k, std::nextafter(nearest_double(low[k]) - room, -HUGE_VAL));
-    bounds.setHigh(k, std::nextafter(nearest_double(high[k]) + room, HUGE_VAL));
+    bounds.setLow(k, std::nextafter(nearest_double(low[k]) - margin, -HUGE_VAL));
+    bounds.setHigh(k, std::nextafter(nearest_double(high[k]) + margin, HUGE_VAL));
   }
   return bounds;
 }
@@ -82,7 +72,10 @@ class BoxSampler : public ob::RealVectorStateSampler {
 
 std::shared_ptr<TurningSpace> space_for(const Scene& scene) {
   const TurningQuestion question = question_of(scene);
-  auto space = std::make_shared<TurningSpace>(question.axis, radius_of(scene.robot));
+  if (question.high - question.low > 4) {
+    throw InputError(scene.name + ": OMPL's angles are those of one full circle; the range is wider");
+  }
+  auto space = std::make_shared<TurningSpace>(question.axis, reach_of(scene.robot));
   space->setBounds(bounds_of(scene, question));
   if (scene.box) {
     space->as<ExactTranslationSpace>(0)->setStateSamplerAllocator(

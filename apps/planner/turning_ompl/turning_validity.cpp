@@ -17,8 +17,7 @@ const TurningSpace& space_of(const ob::SpaceInformation& si) {
 
 bool is_finite_pose(const ob::State* state) {
   const auto* compound = static_cast<const ob::CompoundState*>(state);
-  const double* values = compound->as<ExactTranslationSpace::StateType>(0)->values;
-  return std::isfinite(values[0]) && std::isfinite(values[1]) && std::isfinite(values[2]) &&
+  return compound->as<ExactTranslationSpace::StateType>(0)->isFinite() &&
          std::isfinite(compound->as<TurnSpace::StateType>(1)->value);
 }
 

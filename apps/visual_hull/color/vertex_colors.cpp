@@ -152,7 +152,7 @@ std::filesystem::path photograph_of(const std::filesystem::path& image) {
 }
 
 VertexColors vertex_colors(const nef::Mesh& mesh, const std::vector<ViewResult>& views, PixelOrigin origin,
-                           unsigned threads, const nef::Monitor& monitor) {
+                           const nef::Monitor& monitor) {
   std::vector<const ViewResult*> seeing;
   for (const ViewResult& view : views) {
     if (!view.image.empty()) seeing.push_back(&view);
@@ -165,7 +165,7 @@ VertexColors vertex_colors(const nef::Mesh& mesh, const std::vector<ViewResult>&
   // Colours are whole numbers, so their sums do not depend on the order of the views.
   std::vector<Sum> sums(points.size());
   std::mutex summing;
-  nef::parallel_for(seeing.size(), threads, monitor, [&](std::size_t i, const nef::Monitor&) {
+  nef::parallel_for(seeing.size(), monitor, [&](std::size_t i, const nef::Monitor&) {
     const ViewColors view(*seeing[i], origin, mesh, points);
     const std::lock_guard<std::mutex> lock(summing);
     view.add_to(sums);

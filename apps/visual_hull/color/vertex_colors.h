@@ -31,6 +31,6 @@ std::filesystem::path photograph_of(const std::filesystem::path& image);
 /// of the mesh in front shows only the triangles that are. Throws InputError if no view has an image, or one can not be
 /// read. O(views (vertices + pixels + pixels of triangles)).
 VertexColors vertex_colors(const nef::Mesh& mesh, const std::vector<ViewResult>& views, PixelOrigin origin,
-                           unsigned threads, const nef::Monitor& monitor);
+                           const nef::Monitor& monitor);
 
 }  // namespace visual_hull

@@ -4,16 +4,21 @@
 // `to_options` and `scene_of` turn these into what the library takes, and refuse combinations that mean nothing.
 #include "apps/visual_hull/command/arguments.h"
 
+#include <cstdlib>
+
+#include "apps/program/common_options.h"
 #include "apps/visual_hull/formats/scene_json.h"
 #include "apps/visual_hull/formats/turntable.h"
 #include "apps/visual_hull/scene/axes.h"
 #include "nef/base/error.h"
-#include "nef/program/common_options.h"
+#include "nef/base/word_list.h"
+#include "nef/io/polyhedron_file.h"
 
 namespace visual_hull {
 namespace {
 
 const char* const kFooter =
+    "visual_hull masks PHOTOGRAPHS -o DIR cuts objects out of photographs (see visual_hull masks --help).\n"
     "Scenes are told apart by their content; --check says what was understood:\n"
     "  .json      {\"cameras\": [{\"image\": FILE, \"P\": 3x4} or {\"image\": FILE, \"K\": 3x3, \"R\": 3x3, \"t\": 3,\n"
     "             \"distortion\": [k1, k2, p1, p2, ...]}, ...], \"box\": [x0,y0,z0,x1,y1,z1], \"threshold\": "
@@ -31,7 +36,7 @@ const char* const kFooter =
     "  .vsh       Hachenberger's polygons in space\n"
     "Numbers are the rationals that they spell (\"1/3\" too). x = P X; u = x1/x3 to the right, v = x2/x3 down,\n"
     "x3 > 0 in front. Images are looked up beside the scene and in masks/, silhouettes/ and images/ there.\n"
-    "Output: .nef .nef3 (exact), .off .obj .stl .ply; -o, --report, --page write beside the target, then rename.\n"
+    "-o, --report, --page, --refined-scene write beside the target, then rename.\n"
     "Exit codes: 0 done, 1 empty or flat hull or failed --verify, 2 bad input or usage.";
 
 void add_input_options(CLI::App& app, Arguments& a) {
@@ -69,7 +74,10 @@ void add_input_options(CLI::App& app, Arguments& a) {
                  "N or otsu: brighter than this is object (default: half of the range, or alpha)")
       ->type_name("N");
   app.add_option("--channel", a.channel, "What --threshold looks at, e.g. red before a blue screen (default: gray)")
-      ->check(CLI::IsMember({"gray", "red", "green", "blue", "alpha"}));
+      ->check(CLI::IsMember(channel_names()));
+  app.add_option("--mask", a.mask,
+                 "The images are photographs: cut the object out, by one rule for all: " + mask_help())
+      ->type_name("METHOD");
   app.add_flag("--invert", a.invert, "The object is darker than the background");
   app.add_option("--pixel-origin", a.origin,
                  "Whole image coordinates are the center or the upper left corner of a pixel (default: as the "
@@ -92,14 +100,17 @@ void add_input_options(CLI::App& app, Arguments& a) {
 }
 
 void add_output_options(CLI::App& app, Arguments& a) {
-  app.add_option("-o,--output", a.output, "Write the hull (format by extension)")->type_name("FILE");
-  nef::add_file_output_options(app, a.exact, a.binary, a.text);
-  nef::add_mesh_file_options(app, a.mesh_file);
+  app.add_option(
+         "-o,--output", a.session.output,
+         "Write the hull; its extension (" + nef::word_list(nef::file_extensions(), "or") + ") picks the format")
+      ->type_name("FILE");
+  nef::add_file_output_options(app, a.session.exact, a.session.binary, a.session.text);
+  nef::add_mesh_file_options(app, a.session.mesh_file);
   app.add_option("--decimate", a.decimate, "Write a mesh of about N triangles, and tell how far it is from the hull")
       ->check(nef::positive())
       ->type_name("N");
   app.add_flag(
-      "--manifold", a.manifold,
+      "--manifold", a.session.mesh_file.manifold,
       "Write a mesh in which each edge has two faces: diagonal pixels are joined, what touches still is split");
   app.add_flag("--color", a.color,
                "Vertices get the mean colour of the views that see them (PLY, GLB); photographs of masks/NAME are "
@@ -109,22 +120,33 @@ void add_output_options(CLI::App& app, Arguments& a) {
                  "Vertex by vertex (direct), by intersecting cones, or as is best; the hull is the same")
       ->check(CLI::IsMember({"best", "direct", "cones"}))
       ->capture_default_str();
+  CLI::Option* refine =
+      app.add_flag("--refine", a.refine,
+                   "Correct the cameras so that the silhouettes agree, if outlines not used for that agree, too");
+  app.add_option("--refined-scene", a.refined_scene, "Write the scene with the cameras that were used")
+      ->needs(refine)
+      ->type_name("FILE.json");
   app.add_flag("--suspects", a.suspects, "Compare the views: which one disagrees with the others");
   app.add_flag("--drop-suspects", a.drop_suspects, "Leave out the view that disagrees, compare again, and so on");
   app.add_option("--at-least", a.at_least, "The points in at least K silhouettes, instead of in all")
       ->check(nef::positive())
       ->type_name("K");
   app.add_flag("--exact-volume", a.exact_volume, "Report the exact volume, too: millions of digits for detailed hulls");
-  app.add_option("--report", a.report, "Write a report as JSON ('-': standard output)")->type_name("FILE.json");
+  app.add_option("--report", a.session.report, "Write a report as JSON ('-': standard output)")->type_name("FILE.json");
   app.add_option("--overlay", a.overlay, "Directory for a picture per view: image, polygon, projection of the hull")
       ->type_name("DIR");
-  app.add_option("--preview", a.preview, "Directory for pictures of the hull from four sides")->type_name("DIR");
   app.add_option("--page", a.page, "Write a page that shows the hull with its cameras and their images")
       ->type_name("FILE.html");
-  nef::add_run_options(app, a.json, a.quiet, a.threads);
+  nef::add_run_flags(&app, a.session);
 }
 
 }  // namespace
+
+std::string mask_help() {
+  return "auto (by what separates best), threshold[:CHANNEL[:LEVEL]] (<LEVEL: darker ones), background:FILE (a picture "
+         "without the object), background:median (of a still camera), key:COLOUR (of a screen: #RRGGBB or a name), or "
+         "grabcut[:X,Y,W,H]";
+}
 
 void add_options(CLI::App& app, Arguments& arguments) {
   app.name("visual_hull");
@@ -138,15 +160,22 @@ Options to_options(const Arguments& a) {
   Options options;
   options.silhouette.simplify = {a.simplify, a.outer};
   options.silhouette.min_area = a.min_area;
-  if (a.manifold) options.silhouette.diagonal = DiagonalPixels::kJoin;
+  if (a.session.mesh_file.manifold) options.silhouette.diagonal = DiagonalPixels::kJoin;
   options.silhouette.border = a.border == "unknown" ? Border::kUnknown : Border::kOutside;
   if (!a.origin.empty()) options.origin = a.origin == "corner" ? PixelOrigin::kCorner : PixelOrigin::kCenter;
   if (!a.threshold.empty()) options.silhouette.threshold = parse_threshold(a.threshold);
   options.silhouette.threshold.invert = a.invert;
   if (!a.channel.empty()) options.silhouette.threshold.channel = parse_channel(a.channel);
+  if (!a.mask.empty()) {
+    if (!a.threshold.empty() || !a.channel.empty() || a.invert) {
+      throw nef::InputError("--mask makes masks of photographs: --threshold, --channel and --invert do not go with it");
+    }
+    options.mask = parse_mask_method(a.mask);
+  }
   if (!a.box.empty()) options.box = parse_box(a.box);
   if (!a.images.empty()) options.images = a.images;
   if (a.way != "best") options.way = a.way == "direct" ? Way::kDirect : Way::kCones;
+  options.refine = a.refine;
   options.suspects = a.suspects;
   options.drop_suspects = a.drop_suspects;
   if (a.at_least != 0) {
@@ -157,17 +186,20 @@ Options to_options(const Arguments& a) {
     options.at_least = a.at_least;
   }
   options.verify = a.verify;
-  options.threads = a.threads;
+  options.monitor = a.session.monitor;
   return options;
 }
 
 Scene scene_of(const Arguments& a) {
   Scene scene;
   if (a.turntable) {
-    if (a.intrinsics.empty() || !a.radius) {
-      throw nef::InputError("--turntable: the camera is missing: give --K f,cx,cy, --radius R and --height H");
+    const bool unknown = a.intrinsics.empty() && !a.radius;
+    if (!(unknown && a.refine) && (a.intrinsics.empty() || !a.radius)) {
+      throw nef::InputError(
+          "--turntable: the camera is missing: give --K f,cx,cy, --radius R and --height H, or --refine to find it");
     }
-    scene = make_turntable({*a.turntable, a.intrinsics, *a.radius, a.height});
+    scene = unknown ? guess_turntable(std::abs(*a.turntable))
+                    : make_turntable({*a.turntable, a.intrinsics, *a.radius, a.height});
   } else {
     scene = read_scene(a.scene, {a.matrices});
   }

@@ -8,24 +8,22 @@
 #include <string>
 #include <vector>
 
+#include "apps/program/session.h"
 #include "apps/visual_hull/visual_hull.h"
-#include "nef/program/common_options.h"
 
 namespace visual_hull {
 
-/// The options as they were given; see add_options for their meaning.
+/// The command line: what all programs have in `session` (output, report, flags of files), and the rest; see
+/// add_options for what it means.
 struct Arguments {
+  explicit Arguments(nef::Session& its_session) : session(its_session) {}
+
+  nef::Session& session;
   std::string scene;
-  std::string output;
-  bool exact = false;
-  bool binary = false;
-  bool text = false;
-  nef::MeshFileFlags mesh_file;  ///< --lenient and --recenter; --manifold is below
-  std::size_t decimate = 0;      ///< triangles; 0: not
+  std::size_t decimate = 0;  ///< triangles; 0: not
   double min_area = 0;
   double simplify = 0;
   bool outer = false;
-  bool manifold = false;
   bool color = false;
   std::string border = "outside";
   std::string box;
@@ -37,26 +35,27 @@ struct Arguments {
   std::optional<double> radius;
   double height = 0;
   std::string threshold;
+  std::string mask;
   bool invert = false;
   std::string channel;
   std::vector<std::string> silhouettes;
   std::string images;
   std::string frames;
   std::string overlay;
-  std::string preview;
   std::string page;
-  std::string report;
   bool check = false;
   bool verify = false;
   std::string way = "best";
+  bool refine = false;
+  std::string refined_scene;
   bool suspects = false;
   bool drop_suspects = false;
   std::size_t at_least = 0;  ///< 0: all
   bool exact_volume = false;
-  unsigned threads = 0;
-  bool json = false;
-  bool quiet = false;
 };
+
+/// The methods of --mask, for the help.
+std::string mask_help();
 
 /// Declares all options, the version, the footer of the help.
 void add_options(CLI::App& app, Arguments& arguments);

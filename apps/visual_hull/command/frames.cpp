@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iostream>
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -26,9 +25,6 @@
 #include "nef/geometry/vectors.h"
 #include "nef/io/content_hash.h"
 #include "nef/io/file_bytes.h"
-#include "nef/program/notes.h"
-#include "nef/program/progress_bar.h"
-#include "nef/program/run_program.h"
 #include "nef/query/measures/approximate_volume.h"
 
 namespace visual_hull {
@@ -59,9 +55,9 @@ json settings_of(const Arguments& a) {
           {"scene_content", state_of(scene)},
           {"simplify", a.simplify},
           {"outer", a.outer},
-          {"manifold", a.manifold},
-          {"lenient", a.mesh_file.lenient},
-          {"recenter", a.mesh_file.recenter},
+          {"manifold", a.session.mesh_file.manifold},
+          {"lenient", a.session.mesh_file.lenient},
+          {"recenter", a.session.mesh_file.recenter},
           {"color", a.color},
           {"min_area", a.min_area},
           {"border", a.border},
@@ -71,6 +67,7 @@ json settings_of(const Arguments& a) {
           {"matrices", a.matrices},
           {"turntable", {a.turntable.value_or(0), a.intrinsics, a.radius.value_or(0), a.height}},
           {"threshold", a.threshold},
+          {"mask", a.mask},
           {"invert", a.invert},
           {"channel", a.channel},
           {"silhouettes", polygons},
@@ -78,21 +75,26 @@ json settings_of(const Arguments& a) {
           {"at_least", a.at_least},
           {"verify", a.verify},
           {"decimate", a.decimate},
-          {"exact", a.exact},
-          {"binary", a.binary},
-          {"text", a.text}};
+          {"exact", a.session.exact},
+          {"binary", a.session.binary},
+          {"text", a.session.text}};
 }
 
 // What does not go with frames is refused.
 const Arguments& checked(const Arguments& a) {
-  const std::pair<const char*, bool> others[] = {{"--report", !a.report.empty()},    {"--json", a.json},
-                                                 {"--overlay", !a.overlay.empty()},  {"--preview", !a.preview.empty()},
-                                                 {"--page", !a.page.empty()},        {"--images", !a.images.empty()},
-                                                 {"--exact-volume", a.exact_volume}, {"--suspects", a.suspects}};
+  const std::pair<const char*, bool> others[] = {{"--report", !a.session.report.empty()},
+                                                 {"--json", a.session.json},
+                                                 {"--overlay", !a.overlay.empty()},
+                                                 {"--page", !a.page.empty()},
+                                                 {"--images", !a.images.empty()},
+                                                 {"--exact-volume", a.exact_volume},
+                                                 {"--refine", a.refine},
+                                                 {"--suspects", a.suspects}};
   for (const auto& [name, given] : others) {
     if (given) throw nef::InputError(std::string(name) + " is for one hull, not for --frames");
   }
-  if (a.output.empty()) throw nef::InputError("--frames needs -o, with a place for the number, as in hull_%04d.ply");
+  if (a.session.output.empty())
+    throw nef::InputError("--frames needs -o, with a place for the number, as in hull_%04d.ply");
   return a;
 }
 
@@ -104,9 +106,9 @@ std::string of_frame(const json& entry, const std::string& text) {
 }
 
 // What the exit code is for a frame, which is complained of unless it is good.
-int code_of(const json& entry) {
-  const auto complain = [&entry](const std::string& word, const std::string& text) {
-    std::cerr << "visual_hull: " << word << nef::one_line(of_frame(entry, text)) << "\n";
+int code_of(const json& entry, nef::Session& session) {
+  const auto complain = [&](const std::string& word, const std::string& text) {
+    session.complain(word + of_frame(entry, text));
   };
   if (entry.contains("warning")) complain("warning: ", entry["warning"]);
   const bool failed = entry["state"] == "failed";
@@ -121,13 +123,15 @@ fs::path manifest_of(const NumberedPath& outputs) {
 }
 
 json entry_of(const Result& result, const fs::path& output, const Arguments& a, const nef::Monitor& monitor) {
+  nef::PolyhedronWriteOptions format = a.session.write_options(output.string());
+  format.monitor = monitor;
   json entry;
   nef::Messages notes = result.notes;
   entry["state"] = result.vanished ? "vanished" : "done";
   if (result.vanished) {
     entry["message"] = nef::utf8(vanished_text(result));
   } else {
-    const WrittenHull written = write_hull(output.string(), result, a, notes, monitor);
+    const WrittenHull written = write_hull(output.string(), result, a, format, notes);
     if (written.decimated) entry["decimated"] = decimation_json(*written.decimated);
     if (!written.file.problem.empty()) entry["warning"] = nef::utf8(written.file.problem);
     if (!nef::is_zero(written.file.offset)) {
@@ -137,7 +141,7 @@ json entry_of(const Result& result, const fs::path& output, const Arguments& a, 
     entry["output"] = nef::utf8(output.string());
     entry["vertices"] = counts.vertices;
     entry["facets"] = counts.facets;
-    entry["volume"] = nef::approximate_volume(result.hull, 1, monitor).value;
+    entry["volume"] = nef::approximate_volume(result.hull, monitor).value;
   }
   for (const std::string& note : notes) entry["notes"].push_back(nef::utf8(note));
   for (const Dropped& dropped : result.dropped) entry["dropped"].push_back(nef::utf8(dropped.view));
@@ -189,15 +193,13 @@ std::vector<std::size_t> NumberedPath::existing() const {
 }
 
 FrameTasks::FrameTasks(const Arguments& a)
-    : arguments_(checked(a)), folders_(a.frames, "--frames"), outputs_(a.output, "-o") {
+    : arguments_(checked(a)), folders_(a.frames, "--frames"), outputs_(a.session.output, "-o") {
   frames_ = folders_.existing();
   if (frames_.empty()) throw nef::InputError("--frames " + a.frames + ": there is no such folder");
   Scene scene = scene_of(a);
   scene.image_folders.clear();  // an image that a frame lacks is not to be taken from another place
   understanding_ = understood(scene);
   Options options = to_options(a);
-  options.threads = 1;
-  arguments_.threads = 1;
   stream_ = std::make_unique<const HullStream>(std::move(scene), options);
 }
 
@@ -268,8 +270,8 @@ class FrameRecord::Manifest {
 
 FrameRecord::FrameRecord(const Arguments& a, const FrameTasks& tasks)
     : tasks_(tasks),
-      quiet_(a.quiet),
-      file_(manifest_of(NumberedPath(a.output, "-o"))),
+      session_(a.session),
+      file_(manifest_of(NumberedPath(a.session.output, "-o"))),
       manifest_(std::make_unique<Manifest>(file_, settings_of(a))) {}
 
 FrameRecord::~FrameRecord() = default;
@@ -279,45 +281,41 @@ bool FrameRecord::keep(std::size_t task) {
   if (!manifest_->has(frame, state_of(tasks_.folder(task)))) return false;
   ++kept_;
   ++done_;
-  code_ = std::max(code_, code_of(manifest_->line(frame)));
+  code_ = std::max(code_, code_of(manifest_->line(frame), session_));
   return true;
 }
 
 void FrameRecord::add(const std::string& line) {
   json entry = parse(line);
   ++done_;
-  code_ = std::max(code_, code_of(entry));
-  if (!quiet_ && !noted_ && entry.contains("notes")) {  // all frames have the same names, as a rule
+  code_ = std::max(code_, code_of(entry, session_));
+  if (!noted_ && entry.contains("notes")) {  // all frames have the same names, as a rule
     noted_ = true;
     nef::Messages notes;
     for (const auto& note : entry["notes"]) notes.push_back(of_frame(entry, note));
-    nef::print_notes(std::cerr, "visual_hull", notes);
+    session_.note_all(notes);
   }
   manifest_->add(std::move(entry));
 }
 
 int FrameRecord::finish() {
   manifest_->rewrite();
-  if (!quiet_) {
-    std::cout << fmt::format("{} frames, {} of them made before; manifest: {}\n", tasks_.size(), kept_, file_.string());
-  }
+  session_.say(fmt::format("{} frames, {} of them made before; manifest: {}", tasks_.size(), kept_, file_.string()));
   return code_;
 }
 
 int make_frames(const Arguments& a) {
   const FrameTasks tasks(a);
-  if (!a.quiet) std::cout << tasks.understanding() << "\n";
+  a.session.say(tasks.understanding());
   FrameRecord record(a, tasks);
-  nef::ProgressBar bar(!a.quiet);
   std::mutex recording;
   const auto recorded = [&](const auto& change) {
     const std::lock_guard<std::mutex> lock(recording);
-    bar.clear();  // for what is said
     const bool done = change();
-    if (done) bar.show("frame", record.done(), tasks.size());
+    if (done) a.session.show_phase("frame", record.done(), tasks.size());
     return done;
   };
-  nef::parallel_for(tasks.size(), a.threads, {}, [&](std::size_t i, const nef::Monitor& own) {
+  nef::parallel_for(tasks.size(), a.session.monitor, [&](std::size_t i, const nef::Monitor& own) {
     if (recorded([&] { return record.keep(i); })) return;
     const std::string line = tasks.make(i, own);
     recorded([&] {
@@ -325,7 +323,6 @@ int make_frames(const Arguments& a) {
       return true;
     });
   });
-  bar.clear();
   return record.finish();
 }
 

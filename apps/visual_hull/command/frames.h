@@ -85,7 +85,7 @@ class FrameRecord {
   class Manifest;
 
   const FrameTasks& tasks_;
-  bool quiet_;
+  nef::Session& session_;
   std::filesystem::path file_;
   std::unique_ptr<Manifest> manifest_;
   std::size_t done_ = 0;

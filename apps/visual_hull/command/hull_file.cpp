@@ -8,22 +8,24 @@
 #include "apps/visual_hull/color/vertex_colors.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
-#include "nef/io/mesh/mesh_writer.h"
+#include "nef/io/mesh/mesh_formats.h"
 #include "nef/io/polyhedron_file.h"
 
 namespace visual_hull {
 
 namespace {
 
-void need_mesh(const Arguments& a, const std::string& option, bool (*suits)(const std::string&), const char* formats) {
-  if (a.output.empty()) throw nef::InputError(option + " writes a mesh: give it a name with -o");
-  if (suits(nef::lower_extension(a.output))) return;
-  throw nef::InputError(option + ": " + a.output + " cannot hold that; " + formats + " can");
+void need_mesh(const Arguments& a, const std::string& option, bool (*suits)(const nef::MeshFormat&)) {
+  if (a.session.output.empty()) throw nef::InputError(option + " writes a mesh: give it a name with -o");
+  const nef::MeshFormat* format = nef::find_mesh_format(nef::lower_extension(a.session.output));
+  if (format != nullptr && suits(*format)) return;
+  throw nef::InputError(option + ": " + a.session.output + " cannot hold that; " +
+                        nef::mesh_format_names(suits, "and") + " can");
 }
 
-std::vector<Color> colors_of(const nef::Mesh& mesh, const Result& result, const Arguments& a, nef::Messages& messages,
-                             const nef::Monitor& monitor) {
-  VertexColors found = vertex_colors(mesh, result.views, result.origin, a.threads, monitor);
+std::vector<Color> colors_of(const nef::Mesh& mesh, const Result& result, const nef::Monitor& monitor,
+                             nef::Messages& messages) {
+  VertexColors found = vertex_colors(mesh, result.views, result.origin, monitor);
   if (found.unseen > 0) {
     messages.push_back(fmt::format("{} of {} vertices are seen by no view: they have the colours of their neighbours",
                                    found.unseen, found.colors.size()));
@@ -41,34 +43,25 @@ std::vector<Color> colors_of(const nef::Mesh& mesh, const Result& result, const 
 }  // namespace
 
 void check_output(const Arguments& a) {
-  const auto is_mesh = [](const std::string& extension) { return extension != "nef" && extension != "nef3"; };
-  const auto names_vertices = [](const std::string& extension) {
-    return extension != "nef" && extension != "nef3" && extension != "stl";
-  };
-  if (a.decimate != 0) need_mesh(a, "--decimate", is_mesh, "OFF, OBJ, STL, PLY, GLB and 3MF");
-  if (a.manifold) need_mesh(a, "--manifold", names_vertices, "OFF, OBJ, PLY, GLB and 3MF");
-  if (a.color) need_mesh(a, "--color", nef::has_vertex_colors, "PLY and GLB");
+  using nef::MeshFormat;
+  if (a.decimate != 0) need_mesh(a, "--decimate", [](const MeshFormat& /*any*/) { return true; });
+  if (a.session.mesh_file.manifold)
+    need_mesh(a, "--manifold", [](const MeshFormat& format) { return format.has(nef::kNamedVertices); });
+  if (a.color) need_mesh(a, "--color", [](const MeshFormat& format) { return format.has(nef::kVertexColors); });
 }
 
-WrittenHull write_hull(const std::string& path, const Result& result, const Arguments& a, nef::Messages& messages,
-                       const nef::Monitor& monitor) {
-  nef::PolyhedronWriteOptions format;
-  format.exact = a.exact;
-  format.binary = a.binary;
-  format.text = a.text;
-  format.manifold = a.manifold;
-  format.lenient = a.mesh_file.lenient;
-  format.recenter = a.mesh_file.recenter;
-  format.threads = a.threads;
-  format.monitor = monitor;
+WrittenHull write_hull(const std::string& path, const Result& result, const Arguments& a,
+                       nef::PolyhedronWriteOptions format, nef::Messages& messages) {
   if (a.color) {
-    format.vertex_colors = [&](const nef::Mesh& mesh) { return colors_of(mesh, result, a, messages, monitor); };
+    format.vertex_colors = [&result, &messages, monitor = format.monitor](const nef::Mesh& mesh) {
+      return colors_of(mesh, result, monitor, messages);
+    };
   }
   WrittenHull written;
   if (a.decimate == 0) {
     written.file = nef::write_polyhedron(path, result.hull, format, &messages);
   } else {
-    written.decimated = nef::decimate(result.hull, a.decimate, monitor);
+    written.decimated = nef::decimate(result.hull, a.decimate, format.monitor);
     const nef::Messages& notes = written.decimated->notes;
     messages.insert(messages.end(), notes.begin(), notes.end());
     written.file = nef::write_solid_mesh(path, written.decimated->mesh, false, format, &messages);

@@ -7,9 +7,9 @@
 #include <optional>
 #include <string>
 
+#include "apps/remeshing/decimate.h"
 #include "apps/visual_hull/command/arguments.h"
 #include "nef/io/polyhedron_file.h"
-#include "nef/remeshing/decimate.h"
 
 namespace visual_hull {
 
@@ -22,10 +22,11 @@ struct WrittenHull {
   std::optional<nef::DecimatedMesh> decimated;
 };
 
-/// Writes the hull as the arguments have it: whole, or with --decimate as a mesh of fewer triangles. With --manifold,
-/// --color, --lenient and --recenter as these say. Notes about what was done are added to `messages`.
+/// Writes the hull as the arguments have it: whole, or with --decimate as a mesh of fewer triangles, with --color in
+/// colours. `format` is what the session says of files (Session::write_options). Notes about what was done are added to
+/// `messages`.
 WrittenHull write_hull(const std::string& path, const Result& result, const Arguments& arguments,
-                       nef::Messages& messages, const nef::Monitor& monitor);
+                       nef::PolyhedronWriteOptions format, nef::Messages& messages);
 
 /// For the report: `triangles`, `vertices`, and `distance` from the hull (bounds of Hausdorff's, `low` and `high`).
 nlohmann::ordered_json decimation_json(const nef::DecimatedMesh& decimated);

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "apps/view/image.h"
 #include "apps/visual_hull/polygon/edge_grid.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 #include "nef/polyhedron.h"
-#include "nef/view/image.h"
 
 namespace visual_hull {
 namespace {

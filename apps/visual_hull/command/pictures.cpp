@@ -8,11 +8,10 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "apps/view/page.h"
 #include "apps/visual_hull/command/overlay.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
-#include "nef/view/page.h"
-#include "nef/view/picture.h"
 
 namespace visual_hull {
 namespace {
@@ -26,12 +25,10 @@ constexpr nef::view::Color kOutlineColor{200, 40, 40};
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{512} << 10U;  // of an image that is embedded as it is
 constexpr int kLongestSide = 1024;                                   // pixels of others
 
-Layer hull_layer(const Result& result, bool indices, const nef::Monitor& monitor) {
+Layer hull_layer(const Result& result, const nef::Monitor& monitor) {
   Layer layer;
   layer.name = "hull";
-  nef::view::SceneOptions options;
-  options.indices = indices;
-  layer.scene = nef::view::build_scene(result.hull, options, monitor);
+  layer.scene = nef::view::build_scene(result.hull, {}, monitor);
   return layer;
 }
 
@@ -142,26 +139,8 @@ void add_outline(Layer& layer, const ViewResult& view, const ImagePlane& plane) 
 
 }  // namespace
 
-void write_preview(const Result& result, const fs::path& folder, const nef::Monitor& monitor) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder, error)) {
-    throw nef::InputError("--preview: cannot make the directory " + folder.string());
-  }
-  const std::vector<Layer> layers{hull_layer(result, false, monitor)};
-  const std::vector<std::pair<std::string, std::optional<Point>>> pictures{{"hull.png", std::nullopt},
-                                                                           {"hull_front.png", Point{0, -1, 0}},
-                                                                           {"hull_right.png", Point{1, 0, 0}},
-                                                                           {"hull_top.png", Point{0, 0, 1}}};
-  for (const auto& [name, from] : pictures) {
-    nef::view::PictureOptions options;
-    options.from = from;
-    nef::view::write_picture(layers, (folder / name).string(), options);
-  }
-}
-
 std::vector<Layer> page_layers(const Result& result, PixelOrigin origin, const nef::Monitor& monitor) {
-  std::vector<Layer> layers{hull_layer(result, true, monitor)};
+  std::vector<Layer> layers{hull_layer(result, monitor)};
   Layer cameras;
   cameras.name = "cameras";
   cameras.color = kCameraColor;

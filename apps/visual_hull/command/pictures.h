@@ -1,19 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Pictures of a hull, and a page that shows it among its cameras and their images.
+// A page that shows a hull among its cameras and their images.
 #pragma once
 
 #include <filesystem>
 
+#include "apps/view/layer.h"
 #include "apps/visual_hull/visual_hull.h"
-#include "nef/view/layer.h"
 
 namespace visual_hull {
-
-/// Writes hull.png (from the right, the front and above) and hull_front.png (against +y), hull_right.png (against +x)
-/// and hull_top.png (against +z; z is up) into `folder`, which is made if need be. Throws InputError if that is not
-/// possible.
-void write_preview(const Result& result, const std::filesystem::path& folder, const nef::Monitor& monitor);
 
 /// The layers of a page: the hull, and the cameras, each with its image (or the polygon that it has in its place) on a
 /// plane between camera and hull. Images that are large, distorted, or no PNG or JPEG are embedded as smaller PNGs.

@@ -9,14 +9,13 @@
 
 #include <algorithm>
 
-#include "nef/program/run_report.h"
-#include "nef/program/set_info.h"
+#include "apps/program/set_info.h"
 #include "nef/query/measures/approximate_volume.h"
 
 namespace visual_hull {
 namespace {
 
-using json = nlohmann::ordered_json;
+using json = nef::Json;
 
 json box_json(const WorldBox& box) {
   json list = json::array();
@@ -61,6 +60,32 @@ void add_consistency(json& report, const Result& result) {
   }
 }
 
+json refinement_json(const refine::Refinement& r) {
+  json views = json::array();
+  for (const refine::RefinedView& view : r.views) {
+    const char* const fault = view.fault == refine::Fault::kMask ? "mask" : "camera";
+    views.push_back({{"view", view.name},
+                     {"moved_px", view.moved_px},
+                     {"turned_degrees", view.turned_degrees},
+                     {"residual_px_before", view.residual_before},
+                     {"residual_px_after", view.residual_after},
+                     {"fault", view.fault == refine::Fault::kNone ? json(nullptr) : json(fault)}});
+  }
+  return {{"accepted", r.accepted},
+          {"model", refine::model_name(r.model)},
+          {"residual_px_before", r.before.mean},
+          {"residual_px_after", r.after.mean},
+          {"residual_px_before_90", r.before.ninth_decile},
+          {"residual_px_after_90", r.after.ninth_decile},
+          {"held_out_px_before", r.held_out_before.mean},
+          {"held_out_px_after", r.held_out_after.mean},
+          {"focal_factor", r.focal_factor},
+          {"focal_px", r.focal},
+          {"found", r.found},
+          {"undetermined", r.undetermined},
+          {"views", std::move(views)}};
+}
+
 json verify_json(const Result& result) {
   json list = json::array();
   for (const ViewResult& view : result.views) {
@@ -75,32 +100,49 @@ json verify_json(const Result& result) {
   return list;
 }
 
+bool is_verified(const Result& result) {
+  return std::any_of(result.views.begin(), result.views.end(),
+                     [](const ViewResult& view) { return view.verification.has_value(); });
+}
+
+// body(phase, its report) for each phase that was gone through.
+template <typename Body>
+void each_phase(const Result& result, const Body& body) {
+  for (std::size_t i = 0; i < kPhaseCount; ++i) {
+    const auto phase = static_cast<Phase>(i);
+    if (phase == Phase::kVerify && !is_verified(result)) continue;
+    if (phase == Phase::kRefine && !result.refinement) continue;
+    body(phase, result.phases[i]);
+  }
+}
+
 }  // namespace
 
-nlohmann::ordered_json make_report(const Result& result, const nef::Messages& messages, bool exact_volume) {
+nef::Json make_report(const Result& result, bool exact_volume) {
   json report;
   report["views"] = json::array();
   for (const ViewResult& view : result.views) report["views"].push_back(view_json(view));
   report["box"] = box_json(result.box);
   report["box_found"] = result.box_found;
   report["direct"] = result.direct;
-  bool verified = false;
-  for (const ViewResult& view : result.views) verified = verified || view.verification.has_value();
   report["result"] = nef::set_info(result.hull, {.exact = exact_volume, .bounds = true});
   if (result.vanished) {
     report["vanished"] = {
         {"view", result.vanished->view}, {"reason", result.vanished->reason}, {"sets", result.vanished->sets}};
   }
   add_consistency(report, result);
-  if (verified) report["verify"] = verify_json(result);
-  std::vector<nef::ReportPhase> phases;
-  for (std::size_t i = 0; i < kPhaseCount; ++i) {
-    const PhaseReport& phase = result.phases[i];
-    if (static_cast<Phase>(i) == Phase::kVerify && !verified) continue;
-    phases.push_back({phase_name(static_cast<Phase>(i)), phase.seconds, phase.predicates});
-    report["cpu"][std::string(phase_name(static_cast<Phase>(i))) + "_s"] = phase.cpu_seconds;
-  }
-  return nef::run_report("hull", report, phases, messages);
+  if (result.refinement) report["refine"] = refinement_json(*result.refinement);
+  if (is_verified(result)) report["verify"] = verify_json(result);
+  each_phase(result, [&](Phase phase, const PhaseReport& spent) {
+    report["cpu"][std::string(phase_name(phase)) + "_s"] = spent.cpu_seconds;
+  });
+  return report;
+}
+
+void tell_phases(nef::Session& session, const Result& result) {
+  each_phase(result, [&](Phase phase, const PhaseReport& spent) {
+    session.spent(phase_name(phase), spent.seconds, spent.predicates);
+  });
 }
 
 std::string vanished_text(const Result& result) {
@@ -137,6 +179,41 @@ std::vector<std::string> verdict_lines(const Result& result) {
   return lines;
 }
 
+std::vector<std::string> refinement_lines(const Result& result) {
+  if (!result.refinement) return {};
+  const refine::Refinement& r = *result.refinement;
+  std::vector<std::string> lines;
+  if (r.found) {
+    lines.push_back(fmt::format(
+        "cameras found ({}): focal length {:.1f} px; the outlines are off by {:.3f} px, ninth decile {:.3f}; "
+        "the unit of length is the distance of the camera",
+        refine::model_name(r.model), r.focal, r.after.mean, r.after.ninth_decile));
+  } else if (r.accepted) {
+    lines.push_back(fmt::format(
+        "cameras refined ({}): the outlines are off by {:.3f} px instead of {:.3f}, where they were not used by {:.3f} "
+        "instead of {:.3f}; focal length times {:.4f}",
+        refine::model_name(r.model), r.after.mean, r.before.mean, r.held_out_after.mean, r.held_out_before.mean,
+        r.focal_factor));
+  } else {
+    lines.push_back(
+        fmt::format("cameras not refined: nothing that the silhouettes tell is better than the given ones, of which "
+                    "outlines are off by {:.3f} px",
+                    r.before.mean));
+  }
+  for (const refine::RefinedView& view : r.views) {
+    if (view.fault == refine::Fault::kCamera) {
+      lines.push_back(fmt::format("view {}: its camera stood {:.1f} px off and was moved", view.name, view.moved_px));
+    } else if (view.fault == refine::Fault::kMask) {
+      lines.push_back(
+          fmt::format("view {}: its mask disagrees with the other views wherever its camera stands", view.name));
+    }
+  }
+  if (!r.undetermined.empty()) {
+    lines.push_back(fmt::format("the silhouettes do not determine: {}", fmt::join(r.undetermined, ", ")));
+  }
+  return lines;
+}
+
 std::vector<std::string> suspects_table(const Result& result) {
   const Consistency& found = *result.consistency;
   std::vector<std::string> lines{
@@ -167,7 +244,7 @@ std::optional<std::string> cut_note(const Result& result) {
       names.size() == 1 ? "" : "s", names.size() == 1 ? "" : "s", list);
 }
 
-std::string summary(const Result& result, unsigned threads) {
+std::string summary(const Result& result, const nef::Monitor& monitor) {
   const nef::Counts counts = nef::counts(result.hull);
   double seconds = 0;
   for (const PhaseReport& phase : result.phases) seconds += phase.seconds;
@@ -176,7 +253,7 @@ std::string summary(const Result& result, unsigned threads) {
   return fmt::format(
       "{} views, {} polygon vertices -> hull with {} vertices, {} edges, {} facets, volume {:.6g} ({:.3g} s)",
       result.views.size(), vertices, counts.vertices, counts.edges, counts.facets,
-      nef::approximate_volume(result.hull, threads).value, seconds);
+      nef::approximate_volume(result.hull, monitor).value, seconds);
 }
 
 }  // namespace visual_hull

@@ -1,46 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // One run: parse, read the scene, compute, write the files, print the report, and conclude with the exit code. Output
-// for people goes to standard output, and to stderr if the report is to have standard output for itself.
+// for people, notes and the report go through the session, as in all programs.
 #include "apps/visual_hull/command/run.h"
 
 #include <cstdio>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
+#include <sstream>
+#include <string_view>
 
+#include "apps/program/run_program.h"
 #include "apps/visual_hull/command/arguments.h"
 #include "apps/visual_hull/command/frames.h"
 #include "apps/visual_hull/command/hull_file.h"
+#include "apps/visual_hull/command/masks_run.h"
 #include "apps/visual_hull/command/overlay.h"
 #include "apps/visual_hull/command/pictures.h"
 #include "apps/visual_hull/command/report.h"
+#include "apps/visual_hull/formats/write_scene.h"
 #include "apps/visual_hull/scene/understanding.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
-#include "nef/program/notes.h"
-#include "nef/program/progress_bar.h"
-#include "nef/program/run_program.h"
-#include "nef/program/run_report.h"
 
 namespace visual_hull {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr int kDone = 0;
-constexpr int kBad = 2;  // bad input or usage
-constexpr int kNo = 1;   // the hull is empty or flat, or --verify failed
-
-void complain(const std::string& text) { std::cerr << "visual_hull: " << nef::one_line(text) << "\n"; }
-
-void write_text(const std::string& path, const std::string& text) {
-  if (path == "-") {
-    std::cout << text;
-  } else {
-    nef::write_file(path, text);
-  }
-}
 
 std::string box_text(const WorldBox& box) {
   std::string text;
@@ -55,10 +42,10 @@ std::string box_text(const WorldBox& box) {
 }
 
 // Which view disagrees with the others; without a clear one the first three, without a verdict.
-void tell_suspects(const Arguments& a, const Result& result, std::ostream& say) {
-  if (!a.quiet) nef::print_notes(std::cerr, "visual_hull", verdict_lines(result));
-  if (a.quiet || a.json || !result.consistency) return;
-  for (const std::string& line : suspects_table(result)) say << line << "\n";
+void tell_suspects(nef::Session& session, const Result& result) {
+  session.note_all(verdict_lines(result));
+  if (!result.consistency) return;
+  for (const std::string& line : suspects_table(result)) session.say(line);
 }
 
 // What is understood, without a hull.
@@ -73,54 +60,80 @@ int check_scene(const Arguments& a, const Scene& scene) {
     missing = error.what();
   }
   std::cout << understood(scene) << "\n";
-  for (const std::string& line : view_lines(scene, images)) std::cout << line << "\n";
-  if (!a.quiet) nef::print_notes(std::cerr, "visual_hull", notes);
-  if (missing.empty()) return kDone;
-  complain(missing);
-  return kBad;
+  if (!scene.guessed) {
+    for (const std::string& line : view_lines(scene, images)) std::cout << line << "\n";
+  }
+  a.session.note_all(notes);
+  if (missing.empty()) return nef::kYes;
+  a.session.complain(missing);
+  return nef::kBad;
 }
 
-// Tells people what has come out; the exit code.
-int conclude(const Arguments& a, const Scene& scene, const Result& result) {
-  const bool talk = !a.quiet && !a.json;
-  std::ostream& say = a.report == "-" ? std::cerr : std::cout;
-  if (talk) say << understood(scene) << "\n";
-  if (talk && result.box_found && !result.vanished) say << "box found: --box=" << box_text(result.box) << "\n";
-  tell_suspects(a, result, say);
+// Tells people what has come out; the exit code: kNo if the hull is empty or flat, or --verify failed.
+int conclude(nef::Session& session, const Scene& scene, const Result& result) {
+  session.say(understood(scene));
+  if (result.box_found && !result.vanished) session.say("box found: --box=" + box_text(result.box));
+  tell_suspects(session, result);
   if (result.vanished) {
-    complain(vanished_text(result));
-    return kNo;
+    session.complain(vanished_text(result));
+    return nef::kNo;
   }
-  if (talk) say << summary(result, a.threads) << "\n";
+  session.say(summary(result, session.monitor));
   bool inside = true;
   for (const ViewResult& view : result.views) {
     if (!view.verification) continue;
     const Verification& v = *view.verification;
     inside = inside && v.inside;
-    if (!v.inside) complain("view " + view.name + ": not inside: " + v.problem);
-    if (!talk) continue;
-    say << "view " << view.name << ": " << (v.inside ? "inside" : "NOT inside");
-    if (v.area_known) say << ", differs by " << v.difference_area << " of " << v.silhouette_area << " square pixels";
-    say << "\n";
+    if (!v.inside) session.complain("view " + view.name + ": not inside: " + v.problem);
+    std::ostringstream line;
+    line << "view " << view.name << ": " << (v.inside ? "inside" : "NOT inside");
+    if (v.area_known) line << ", differs by " << v.difference_area << " of " << v.silhouette_area << " square pixels";
+    session.say(line.str());
   }
-  return inside ? kDone : kNo;
+  return inside ? nef::kYes : nef::kNo;
 }
 
-// What is asked for, into files; returns what is to be known of that of the hull. A hull that vanished has pictures of
-// its views only.
-WrittenHull write_files(const Arguments& a, const Result& result, nef::ProgressBar& bar, nef::Messages& notes,
-                        const nef::Monitor& monitor) {
-  WrittenHull written;
-  const auto step = [&](const std::string& target, bool solid, const std::function<void()>& write) {
-    if (target.empty() || (solid && result.vanished)) return;
-    bar.show("write " + target);
-    write();
-  };
-  step(a.output, true, [&] { written = write_hull(a.output, result, a, notes, monitor); });
-  step(a.overlay, false, [&] { write_overlays(result, result.origin, a.overlay); });
-  step(a.preview, true, [&] { write_preview(result, a.preview, monitor); });
-  step(a.page, true, [&] { write_page(result, result.origin, a.page, monitor); });
-  return written;
+// The scene as it was used: refined cameras, and the images that were found, relative to the file.
+void write_refined_scene(const Arguments& a, Scene scene, const Result& result) {
+  const fs::path folder = fs::absolute(a.refined_scene).parent_path();
+  const std::vector<fs::path> images =
+      images_of(scene, scene_folder(a.scene), a.images.empty() ? std::nullopt : std::optional<fs::path>(a.images));
+  scene.origin = result.origin;
+  for (std::size_t i = 0; i < scene.views.size(); ++i) {
+    scene.views[i].camera = result.refinement->views[i].camera;
+    if (!images[i].empty()) scene.views[i].image = fs::absolute(images[i]).lexically_proximate(folder);
+  }
+  nef::write_file(a.refined_scene, write_scene_json(scene));
+}
+
+// What is asked for, into files; the mesh that was written if the hull was decimated. A hull that vanished has pictures
+// of its views only.
+std::optional<nef::DecimatedMesh> write_files(const Arguments& a, const Scene& scene, const Result& result,
+                                              const nef::Monitor& monitor) {
+  nef::Session& session = a.session;
+  std::optional<nef::DecimatedMesh> decimated;
+  if (!session.output.empty() && !result.vanished) {
+    session.write(session.output, [&](nef::Messages& notes) {
+      nef::PolyhedronWriteOptions format = session.write_options();
+      format.monitor = monitor;
+      WrittenHull written = write_hull(session.output, result, a, format, notes);
+      decimated = std::move(written.decimated);
+      return written.file;
+    });
+  }
+  if (!a.overlay.empty()) {
+    session.show_phase("writing " + a.overlay);
+    write_overlays(result, result.origin, a.overlay);
+  }
+  if (!a.refined_scene.empty()) {
+    session.show_phase("writing " + a.refined_scene);
+    write_refined_scene(a, scene, result);
+  }
+  if (!a.page.empty() && !result.vanished) {
+    session.show_phase("writing " + a.page);
+    write_page(result, result.origin, a.page, monitor);
+  }
+  return decimated;
 }
 
 void check_page_name(const std::string& page) {
@@ -130,41 +143,32 @@ void check_page_name(const std::string& page) {
 }
 
 int run(const Arguments& a) {
+  nef::Session& session = a.session;
   check_output(a);
   if (!a.frames.empty()) return make_frames(a);
   check_page_name(a.page);
-  nef::ProgressBar bar(!a.quiet);
   const Options options = to_options(a);
   const Scene scene = scene_of(a);
   if (a.check) return check_scene(a, scene);
   Result result = compute(scene, scene_folder(a.scene), options,
-                          [&bar](Phase phase, const std::string& view, std::size_t done, std::size_t total) {
-                            bar.show(std::string(phase_name(phase)) + " " + view, done, total);
+                          [&session](Phase phase, const std::string& view, std::size_t done, std::size_t total) {
+                            session.show_phase(std::string(phase_name(phase)) + " " + view, done, total);
                           });
-  nef::Messages about = result.notes;
-  if (const auto note = cut_note(result)) about.push_back(*note);
-  WrittenHull written;
-  timed(result.phases, Phase::kWrite, {},
-        [&](const nef::Monitor& monitor) { written = write_files(a, result, bar, about, monitor); });
-  bar.clear();
-  nef::Notes notes("visual_hull", std::cerr, a.quiet);
-  notes.note(about);
-  notes.wrote(a.output, written.file);
-  if (!a.report.empty() || a.json) {
-    bar.show("write report");
-    nlohmann::ordered_json report = make_report(result, notes.list(), a.exact_volume);
-    if (written.decimated) report["decimated"] = decimation_json(*written.decimated);
-    notes.add_offsets(report);
-    const std::string text = nef::report_text(report);
-    bar.clear();
-    if (!a.report.empty()) write_text(a.report, text);
-    if (a.json && a.report != "-") write_text("-", text);
+  session.note_all(result.notes);
+  session.note_all(refinement_lines(result));
+  if (const auto note = cut_note(result)) session.note(*note);
+  std::optional<nef::DecimatedMesh> decimated;
+  timed(result.phases, Phase::kWrite, session.monitor,
+        [&](const nef::Monitor& monitor) { decimated = write_files(a, scene, result, monitor); });
+  if (!session.report.empty() || session.json) {
+    session.show_phase("writing the report");
+    tell_phases(session, result);
+    nef::Json report = make_report(result, a.exact_volume);
+    if (decimated) report["decimated"] = decimation_json(*decimated);
+    session.print("hull", report);
   }
-  bar.clear();
-  if (!a.quiet && !a.json && written.decimated) {
-    (a.report == "-" ? std::cerr : std::cout) << decimation_text(*written.decimated) << "\n";
-  }
-  return conclude(a, scene, result);
+  if (decimated) session.say(decimation_text(*decimated));
+  return conclude(session, scene, result);
 }
 
 }  // namespace
@@ -172,11 +176,15 @@ int run(const Arguments& a) {
 int run_command(int argc, char** argv) {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // errors are ours to tell
   cv::setNumThreads(1);                                                   // threads have whole views to work on
-  Arguments arguments;
+  if (argc > 1 && std::string_view(argv[1]) == "masks") return run_masks_command(argc - 1, argv + 1);
+  nef::Session session("visual_hull", std::cout, std::cerr);
+  Arguments arguments(session);
   CLI::App app{
       "Exact visual hulls from calibrated silhouettes: a closed solid, in rational numbers, without tolerance."};
   add_options(app, arguments);
-  return nef::run_program(app, argc, argv, [&arguments] { return run(arguments); });
+  return nef::run_program(
+      app, argc, argv, [&arguments] { return run(arguments); },
+      [&session](const std::string& line) { session.complain(line); });
 }
 
 }  // namespace visual_hull

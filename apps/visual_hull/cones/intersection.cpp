@@ -43,7 +43,7 @@ std::vector<Part> pair_across(std::vector<Part> parts) {
 
 }  // namespace
 
-nef::Polyhedron intersect_parts(std::vector<Part> parts, unsigned threads, const nef::Monitor& monitor,
+nef::Polyhedron intersect_parts(std::vector<Part> parts, const nef::Monitor& monitor,
                                 const std::function<void(std::size_t, std::size_t)>& progress) {
   if (parts.empty()) return nef::Polyhedron::everything();
   std::vector<Part> level = pair_across(std::move(parts));
@@ -53,8 +53,8 @@ nef::Polyhedron intersect_parts(std::vector<Part> parts, unsigned threads, const
   while (level.size() > 1) {
     const std::size_t pairs = level.size() / 2;
     std::vector<Part> next(pairs);
-    nef::parallel_for(pairs, threads, monitor, [&](std::size_t i, const nef::Monitor& own) {
-      next[i] = {nef::intersect(level[2 * i].solid, level[2 * i + 1].solid, 1, own), level[2 * i].axis};
+    nef::parallel_for(pairs, monitor, [&](std::size_t i, const nef::Monitor& own) {
+      next[i] = {nef::intersect(level[2 * i].solid, level[2 * i + 1].solid, own), level[2 * i].axis};
       level[2 * i] = {};  // its memory is not needed any more
       level[2 * i + 1] = {};
       const std::lock_guard<std::mutex> lock(telling);
@@ -73,7 +73,7 @@ std::optional<std::size_t> vanishes_at(const std::vector<Part>& parts, const nef
                                        const nef::Monitor& monitor) {
   nef::Polyhedron left = box;
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    left = nef::intersect(left, parts[i].solid, 1, monitor);
+    left = nef::intersect(left, parts[i].solid, monitor);
     if (left.is_empty() || (solid && nef::interior(left, monitor).is_empty())) return i;
   }
   return std::nullopt;

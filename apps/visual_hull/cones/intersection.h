@@ -20,9 +20,9 @@ struct Part {
 
 /// The closed set of points that all parts keep. The answer does not depend on the order of the
 /// parts. Pairs of views that look in different directions meet first: their intersections are
-/// small. Pairs are worked on by up to `threads` threads (0: as many as the machine has). `progress`, if there
+/// small. Pairs are worked on by the threads of `monitor`. `progress`, if there
 /// is one, is told the number of intersections done and their total, by one thread at a time.
-nef::Polyhedron intersect_parts(std::vector<Part> parts, unsigned threads = 1, const nef::Monitor& monitor = {},
+nef::Polyhedron intersect_parts(std::vector<Part> parts, const nef::Monitor& monitor = {},
                                 const std::function<void(std::size_t, std::size_t)>& progress = {});
 
 /// The first part at which the intersection of all up to it, in the order given and within `box`,

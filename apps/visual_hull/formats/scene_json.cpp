@@ -6,12 +6,12 @@
 
 #include <set>
 
+#include "apps/program/exact_json.h"
 #include "apps/visual_hull/formats/transforms.h"
 #include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
 #include "nef/base/in_quotes.h"
 #include "nef/io/file_bytes.h"
-#include "nef/program/exact_json.h"
 
 namespace visual_hull {
 namespace {
@@ -158,12 +158,18 @@ Scene read_json_scene(const std::string& text, const std::filesystem::path& file
   Scene scene;
   scene.format = "a JSON scene";
   std::set<std::string> ignored;
-  note_ignored(document, {"cameras", "box", "threshold", "channel", "invert"}, file.string(), ignored);
+  note_ignored(document, {"cameras", "box", "threshold", "channel", "invert", "pixel_origin"}, file.string(), ignored);
   for (const json& entry : document["cameras"]) {
     scene.views.push_back(read_view(entry, scene.views.size() + 1, file, ignored));
   }
   scene.ignored.assign(ignored.begin(), ignored.end());
   if (scene.views.empty()) throw nef::InputError(file.string() + ": the list 'cameras' is empty");
+  if (document.contains("pixel_origin")) {
+    const std::string where = file.string() + ", pixel_origin";
+    const std::string origin = text_of(document["pixel_origin"], where);
+    if (origin != "center" && origin != "corner") throw nef::InputError(where + ": center or corner is needed");
+    scene.origin = origin == "corner" ? PixelOrigin::kCorner : PixelOrigin::kCenter;
+  }
   if (document.contains("box")) {
     const std::vector<Rational> v = numbers(document["box"], 6, file.string() + ", box");
     scene.box = WorldBox{{v[0], v[1], v[2]}, {v[3], v[4], v[5]}};

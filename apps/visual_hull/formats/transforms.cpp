@@ -9,12 +9,12 @@
 
 #include <cmath>
 
+#include "apps/program/exact_json.h"
 #include "apps/visual_hull/scene/images.h"
 #include "apps/visual_hull/scene/pose.h"
 #include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
 #include "nef/base/in_quotes.h"
-#include "nef/program/exact_json.h"
 
 namespace visual_hull {
 namespace {

@@ -54,4 +54,14 @@ Scene make_turntable(const Turntable& turntable) {
   return scene;
 }
 
+Scene guess_turntable(int count) {
+  if (count < 5 || count > 100000) {
+    throw nef::InputError("--turntable N without --K: from 5 to 100000 images, of one full turn in equal steps");
+  }
+  Scene scene = make_turntable({count, {1000, 500, 500}, 1, 0.3});
+  scene.format = fmt::format("a turntable of {} degrees a step, its camera to be found", 360.0 / count);
+  scene.guessed = true;
+  return scene;
+}
+
 }  // namespace visual_hull

@@ -18,4 +18,8 @@ struct Turntable {
 /// names. Throws InputError for values that make no camera.
 Scene make_turntable(const Turntable& turntable);
 
+/// The same of which only the number of images is known, and not even the sense of the rotation: its cameras stand for
+/// those that Options::refine finds (Scene::guessed). Throws InputError for less than five or more than 100000.
+Scene guess_turntable(int count);
+
 }  // namespace visual_hull

@@ -19,10 +19,13 @@ namespace {
 // v == k 2^-8 and |v| < 2^16: 24 bits, so differences have 25 and products 50.
 bool is_lattice(double v) { return std::abs(v) < 65536.0 && v * 256 == std::floor(v * 256); }
 
+// GMP's comparisons are of any size.
+int sign_of(int order) { return (order > 0) - (order < 0); }
+
 int exact_orientation(const Point2& a, const Point2& b, const Point2& c) {
   const Rational left = (b.x() - a.x()) * (c.y() - a.y());
   const Rational right = (b.y() - a.y()) * (c.x() - a.x());
-  return cmp(left, right);
+  return sign_of(cmp(left, right));
 }
 
 }  // namespace
@@ -58,7 +61,7 @@ bool Point2::operator==(const Point2& other) const {
 int compare_coordinate(const Point2& a, const Point2& b, std::size_t axis) {
   if (a.approximate[axis] != b.approximate[axis]) return a.approximate[axis] < b.approximate[axis] ? -1 : 1;
   if (a.is_double() && b.is_double()) return 0;
-  return cmp(a.coordinate(axis), b.coordinate(axis));
+  return sign_of(cmp(a.coordinate(axis), b.coordinate(axis)));
 }
 
 bool lexicographically_less(const Point2& a, const Point2& b) {

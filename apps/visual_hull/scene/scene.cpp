@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/visual_hull/scene/scene.h"
 
-#include <map>
+#include <algorithm>
 
 #include "nef/base/error.h"
 #include "nef/base/in_quotes.h"
+#include "nef/base/word_list.h"
 
 namespace visual_hull {
 
@@ -21,17 +22,19 @@ ThresholdOptions parse_threshold(const std::string& text) {
   return options;
 }
 
+const std::vector<std::string>& channel_names() {
+  static const std::vector<std::string> names{"gray",  "red",        "green",    "blue",      "alpha",
+                                              "value", "saturation", "red-blue", "red-green", "green-blue"};
+  return names;
+}
+
 ThresholdOptions::Channel parse_channel(const std::string& text) {
-  using Channel = ThresholdOptions::Channel;
-  static const std::map<std::string, Channel> names{{"gray", Channel::kGray},
-                                                    {"red", Channel::kRed},
-                                                    {"green", Channel::kGreen},
-                                                    {"blue", Channel::kBlue},
-                                                    {"alpha", Channel::kAlpha}};
-  const auto found = names.find(text);
-  if (found == names.end())
-    throw nef::InputError("channel " + nef::in_quotes(text) + " is not gray, red, green, blue or alpha");
-  return found->second;
+  const std::vector<std::string>& names = channel_names();
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found == names.end()) {
+    throw nef::InputError("channel " + nef::in_quotes(text) + " is not " + nef::word_list(names, "or"));
+  }
+  return static_cast<ThresholdOptions::Channel>(found - names.begin());
 }
 
 }  // namespace visual_hull

@@ -3,6 +3,7 @@
 // What a scene file says, before any image is opened.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -16,14 +17,30 @@ namespace visual_hull {
 /// How pixels become object or background.
 struct ThresholdOptions {
   enum class Kind { kDefault, kValue, kOtsu };
-  enum class Channel { kGray, kRed, kGreen, kBlue, kAlpha };
+  /// Value: the largest of red, green and blue; saturation: their range over the value. The last three are half of a
+  /// difference plus half of the range, so that gray is in the middle.
+  enum class Channel : std::uint8_t {
+    kGray,
+    kRed,
+    kGreen,
+    kBlue,
+    kAlpha,
+    kValue,
+    kSaturation,
+    kRedBlue,
+    kRedGreen,
+    kGreenBlue
+  };
   Kind kind = Kind::kDefault;  ///< alpha where it varies, otherwise brighter than half of the type's range
   double value = 0;            ///< brighter than this is object (in the image's own units)
   bool invert = false;         ///< what is darker is object
   Channel channel = Channel::kGray;
 };
 
-/// Parses "gray", "red", "green", "blue" or "alpha". Throws InputError.
+/// The names of channels, in the order of their enum: "gray", "red", ..., "red-blue", "red-green", "green-blue".
+const std::vector<std::string>& channel_names();
+
+/// Parses one of these names. Throws InputError.
 ThresholdOptions::Channel parse_channel(const std::string& text);
 
 /// Parses "otsu" or a number. Throws InputError.
@@ -61,6 +78,7 @@ struct Scene {
   std::vector<std::filesystem::path> image_folders;  ///< where images are looked up after the scene's own folder
   std::optional<WorldBox> box;
   std::optional<ThresholdOptions> threshold;
+  bool guessed = false;  ///< the cameras stand for a turntable of equal steps of which nothing else is known
   std::vector<std::string> ignored;  ///< names in the file that mean nothing to it, in their order
 };
 

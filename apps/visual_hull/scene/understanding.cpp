@@ -95,6 +95,7 @@ std::string understood(const Scene& scene) {
     if (view.camera.handedness() < 0) ++mirrored;
   }
   std::string line = fmt::format("{} view{} from {}", sights.size(), sights.size() == 1 ? "" : "s", scene.format);
+  if (scene.guessed) return line;
   if (pixels) {
     line += scene.origin == PixelOrigin::kCorner ? "; (0, 0) is the corner of a pixel"
                                                  : "; (0, 0) is the centre of a pixel";

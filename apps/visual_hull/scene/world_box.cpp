@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/visual_hull/scene/world_box.h"
 
+#include "apps/program/numbers.h"
 #include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
 #include "nef/number/brief_text.h"
-#include "nef/program/numbers.h"
 
 namespace visual_hull {
 

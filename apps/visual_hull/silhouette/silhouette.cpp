@@ -14,57 +14,12 @@
 #include <sstream>
 
 #include "apps/visual_hull/scene/image_file.h"
+#include "apps/visual_hull/silhouette/channel.h"
 #include "apps/visual_hull/silhouette/lens.h"
 #include "nef/base/error.h"
 
 namespace visual_hull {
 namespace {
-
-double full_scale(int depth) {
-  switch (depth) {
-    case CV_8U:
-      return 255;
-    case CV_8S:
-      return 127;
-    case CV_16U:
-      return 65535;
-    case CV_16S:
-      return 32767;
-    case CV_32S:
-      return 2147483647;
-    default:
-      return 1;
-  }
-}
-
-cv::Mat to_gray(const cv::Mat& image) {
-  cv::Mat gray;
-  if (image.channels() == 1) {
-    gray = image;
-  } else if (image.depth() == CV_8U || image.depth() == CV_16U || image.depth() == CV_32F) {
-    cv::cvtColor(image, gray, image.channels() == 4 ? cv::COLOR_BGRA2GRAY : cv::COLOR_BGR2GRAY);
-  } else {
-    cv::extractChannel(image, gray, 0);
-  }
-  return gray;
-}
-
-// The values that a threshold is compared with. OpenCV's order is blue, green, red, alpha.
-cv::Mat pick_channel(const cv::Mat& image, ThresholdOptions::Channel channel) {
-  using Channel = ThresholdOptions::Channel;
-  if (channel == Channel::kGray) return to_gray(image);
-  int index = 0;
-  if (channel == Channel::kGreen) index = 1;
-  if (channel == Channel::kRed) index = 2;
-  if (channel == Channel::kAlpha) index = 3;
-  if (index >= image.channels()) {
-    throw nef::InputError("the image has " + std::to_string(image.channels()) +
-                          " channels only, not the one that --channel names");
-  }
-  cv::Mat picked;
-  cv::extractChannel(image, picked, index);
-  return picked;
-}
 
 cv::Mat default_mask(const cv::Mat& image, ThresholdOptions::Channel channel) {
   if (image.channels() == 4 && channel == ThresholdOptions::Channel::kGray) {

@@ -266,15 +266,14 @@ double Consistency::share(std::size_t view) const {
   return residual > 0 ? std::min(1.0, views[view].fall / residual) : 0;
 }
 
-Consistency compare_views(const std::vector<ComparedView>& compared, const WorldBox& box, unsigned threads,
-                          const nef::Monitor& monitor) {
+Consistency compare_views(const std::vector<ComparedView>& compared, const WorldBox& box, const nef::Monitor& monitor) {
   Consistency result;
   const std::size_t n = compared.size();
   result.views.resize(n);
   if (n < 3) return result;
   const Lines lines(compared, box);
   std::vector<Tally> tallies(n);
-  nef::parallel_for(n, threads, monitor, [&](std::size_t i, const nef::Monitor&) { tallies[i] = tally_of(lines, i); });
+  nef::parallel_for(n, monitor, [&](std::size_t i, const nef::Monitor&) { tallies[i] = tally_of(lines, i); });
   double common = 0;
   for (const Tally& tally : tallies) common += tally.common / static_cast<double>(n);
   for (std::size_t v = 0; v < n; ++v) {
@@ -304,7 +303,7 @@ Consistency compare_views(const std::vector<ComparedView>& compared, const World
 }
 
 std::vector<std::vector<std::size_t>> disjoint_views(const std::vector<ComparedView>& compared, const WorldBox& box,
-                                                     std::size_t most, unsigned threads, const nef::Monitor& monitor) {
+                                                     std::size_t most, const nef::Monitor& monitor) {
   constexpr std::size_t kMostViews = 256;
   using Set = std::bitset<kMostViews>;
   const std::size_t n = compared.size();
@@ -312,7 +311,7 @@ std::vector<std::vector<std::size_t>> disjoint_views(const std::vector<ComparedV
   const Lines lines(compared, box);
   // The sets of views that some point of a line is seen by.
   std::vector<std::set<std::string>> seen(n);
-  nef::parallel_for(n, threads, monitor, [&](std::size_t i, const nef::Monitor&) {
+  nef::parallel_for(n, monitor, [&](std::size_t i, const nef::Monitor&) {
     lines.each_line(i, [&](SightLine& line) {
       Set accepting;
       accepting.set(i);

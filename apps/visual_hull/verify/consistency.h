@@ -40,14 +40,13 @@ struct Consistency {
 /// silhouettes in their images. The residual accuses the innocent (a mask that lost a part leaves residuals in all
 /// *other* views); D and d do not: see docs/visual_hull.md. A view is guilty if its score exceeds 1.5 and the second
 /// one by 0.4, and D comes from four lines of sight or more; with up to five views the score is that of D alone. `box`
-/// bounds the part of space that is looked at (grown to thrice its size). The answer does not depend on `threads`.
+/// bounds the part of space that is looked at (grown to thrice its size).
 /// O(views^2 (rays + vertices of a silhouette)).
-Consistency compare_views(const std::vector<ComparedView>& views, const WorldBox& box, unsigned threads,
-                          const nef::Monitor& monitor);
+Consistency compare_views(const std::vector<ComparedView>& views, const WorldBox& box, const nef::Monitor& monitor);
 
 /// Smallest sets of at most four views that have no point in common as far as the lines of sight tell: what remains is
 /// to confirm them exactly. At most `most` sets, all of the least size that there is; none if every four views meet.
 std::vector<std::vector<std::size_t>> disjoint_views(const std::vector<ComparedView>& views, const WorldBox& box,
-                                                     std::size_t most, unsigned threads, const nef::Monitor& monitor);
+                                                     std::size_t most, const nef::Monitor& monitor);
 
 }  // namespace visual_hull

@@ -28,7 +28,7 @@ class Cones {
   bool meet(const Indices& some) {
     nef::Polyhedron left = room();
     for (const std::size_t i : some) {
-      left = nef::intersect(left, (*this)[i], 1, monitor_);
+      left = nef::intersect(left, (*this)[i], monitor_);
       if (left.is_empty()) return false;
     }
     return true;
@@ -48,11 +48,11 @@ Indices irreducible_set(Cones& cones, std::size_t count, const nef::Monitor& mon
   Indices found;
   while (true) {
     nef::Polyhedron left = cones.room();
-    for (const std::size_t i : found) left = nef::intersect(left, cones[i], 1, monitor);
+    for (const std::size_t i : found) left = nef::intersect(left, cones[i], monitor);
     if (left.is_empty()) break;
     std::size_t last = count;
     for (std::size_t i = 0; i < count && last == count; ++i) {
-      left = nef::intersect(left, cones[i], 1, monitor);
+      left = nef::intersect(left, cones[i], monitor);
       if (left.is_empty()) last = i;
     }
     if (last == count) return {};
@@ -65,7 +65,7 @@ Indices irreducible_set(Cones& cones, std::size_t count, const nef::Monitor& mon
 }  // namespace
 
 std::vector<Indices> views_without_common_point(const std::vector<ComparedView>& views, const WorldBox& box,
-                                                std::size_t most, unsigned threads, const nef::Monitor& monitor) {
+                                                std::size_t most, const nef::Monitor& monitor) {
   Cones cones(views, box, monitor);
   std::vector<Indices> confirmed;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -74,7 +74,7 @@ std::vector<Indices> views_without_common_point(const std::vector<ComparedView>&
   }
   if (!confirmed.empty()) return confirmed;
   // Lines of sight may miss a small common part, so each set is confirmed; many more than wanted are not asked for.
-  for (Indices& candidate : disjoint_views(views, box, 4 * most, threads, monitor)) {
+  for (Indices& candidate : disjoint_views(views, box, 4 * most, monitor)) {
     if (confirmed.size() >= most) break;
     // A view that sees nothing of the box needs no other.
     for (const std::size_t i : candidate) {

@@ -14,6 +14,6 @@ namespace visual_hull {
 /// there. The views of a set are in ascending order.
 std::vector<std::vector<std::size_t>> views_without_common_point(const std::vector<ComparedView>& views,
                                                                  const WorldBox& box, std::size_t most,
-                                                                 unsigned threads, const nef::Monitor& monitor);
+                                                                 const nef::Monitor& monitor);
 
 }  // namespace visual_hull

@@ -55,13 +55,12 @@ bool lines_pair_up(std::vector<FacetLine>& lines, const std::vector<CrowdedVerte
 
 // Every edge of the hull has two ends, so a line with an odd number of plain vertices passes a crowded one, too:
 // otherwise a vertex was lost.
-bool ends_pair_up(const HullVertices& vertices, const std::vector<ViewingEdge>& edges, unsigned threads,
-                  const nef::Monitor& monitor) {
-  auto lines = nef::shared_out<FacetLine>(vertices.plain.size(), threads, monitor, [&](std::size_t i, const auto& put) {
+bool ends_pair_up(const HullVertices& vertices, const std::vector<ViewingEdge>& edges, const nef::Monitor& monitor) {
+  auto lines = nef::shared_out<FacetLine>(vertices.plain.size(), monitor, [&](std::size_t i, const auto& put) {
     each_line(vertices.plain[i], edges, [&put](FacetLine line) { put((line >> 32U) % nef::kShares, line); });
   });
   std::atomic<bool> paired = true;
-  nef::parallel_for(nef::kShares, threads, monitor, [&](std::size_t share, const nef::Monitor&) {
+  nef::parallel_for(nef::kShares, monitor, [&](std::size_t share, const nef::Monitor&) {
     if (!lines_pair_up(lines[share], vertices.crowded)) paired = false;
   });
   return paired;
@@ -69,16 +68,16 @@ bool ends_pair_up(const HullVertices& vertices, const std::vector<ViewingEdge>& 
 
 }  // namespace
 
-std::optional<nef::Polyhedron> direct_hull(const std::vector<DirectView>& views, const WorldBox& box, unsigned threads,
+std::optional<nef::Polyhedron> direct_hull(const std::vector<DirectView>& views, const WorldBox& box,
                                            const nef::Monitor& monitor) {
   if (views.size() < 3) return std::nullopt;
-  const std::unique_ptr<const EdgeScene> scene = EdgeScene::make(views, box, threads, monitor);
+  const std::unique_ptr<const EdgeScene> scene = EdgeScene::make(views, box, monitor);
   if (!scene) return std::nullopt;
-  const std::optional<HullVertices> vertices = hull_vertices(*scene, threads, monitor);
-  if (!vertices || !ends_pair_up(*vertices, scene->edges, threads, monitor)) return std::nullopt;
+  const std::optional<HullVertices> vertices = hull_vertices(*scene, monitor);
+  if (!vertices || !ends_pair_up(*vertices, scene->edges, monitor)) return std::nullopt;
   std::vector<const Camera*> cameras;
   for (const DirectView& input : views) cameras.push_back(input.camera);
-  return complex_of(*vertices, scene->edges, cameras, threads, monitor);
+  return complex_of(*vertices, scene->edges, cameras, monitor);
 }
 
 }  // namespace visual_hull

@@ -23,8 +23,8 @@ struct DirectView {
 /// (hull_vertices); the vertices there are points of three facets that all silhouettes show (PartVertices), with
 /// doubles whose errors are proven and integers where these do not decide. They are then written down as a complex
 /// (complex_of); a vertex on more planes is an overlay of sphere maps. About O(n log n) for n places where facets come
-/// near the surface of the hull. Uses up to `threads` threads; the result does not depend on their number.
-std::optional<nef::Polyhedron> direct_hull(const std::vector<DirectView>& views, const WorldBox& box, unsigned threads,
+/// near the surface of the hull. On the threads of `monitor`.
+std::optional<nef::Polyhedron> direct_hull(const std::vector<DirectView>& views, const WorldBox& box,
                                            const nef::Monitor& monitor);
 
 }  // namespace visual_hull

@@ -16,7 +16,7 @@ constexpr std::size_t kExactPointsOfEdge = 50;
 }  // namespace
 
 std::unique_ptr<const EdgeScene> EdgeScene::make(const std::vector<DirectView>& inputs, const WorldBox& box,
-                                                 unsigned threads, const nef::Monitor& monitor) {
+                                                 const nef::Monitor& monitor) {
   std::unique_ptr<EdgeScene> scene(new EdgeScene);
   Double3 reach{};
   double size = 0;
@@ -39,7 +39,7 @@ std::unique_ptr<const EdgeScene> EdgeScene::make(const std::vector<DirectView>& 
   scene->edges.resize(edge_count);
   std::vector<std::optional<EdgeView>> views(inputs.size());
   std::atomic<bool> good = true;
-  nef::parallel_for(inputs.size(), threads, monitor, [&](std::size_t i, const nef::Monitor&) {
+  nef::parallel_for(inputs.size(), monitor, [&](std::size_t i, const nef::Monitor&) {
     const DirectView& input = inputs[i];
     if (good && sgn(depth_range(*input.camera, box).nearest) > 0) {
       auto view = EdgeView::make(*input.camera, *input.silhouette, static_cast<std::uint32_t>(i), first[i], reach,

@@ -29,7 +29,7 @@ class EdgeScene {
  public:
   /// Nothing if a camera does not have all of the box in front, or a silhouette is degenerate (EdgeView::make).
   static std::unique_ptr<const EdgeScene> make(const std::vector<DirectView>& inputs, const WorldBox& box,
-                                               unsigned threads, const nef::Monitor& monitor);
+                                               const nef::Monitor& monitor);
   EdgeScene(const EdgeScene&) = delete;  // its views refer to it
   EdgeScene& operator=(const EdgeScene&) = delete;
 

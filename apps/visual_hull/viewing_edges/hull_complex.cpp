@@ -35,7 +35,7 @@ class EdgePlanes {
  public:
   /// Of the edges that meet in the vertices.
   EdgePlanes(const HullVertices& vertices, const std::vector<ViewingEdge>& edges,
-             const std::vector<const Camera*>& cameras, unsigned threads, const nef::Monitor& monitor)
+             const std::vector<const Camera*>& cameras, const nef::Monitor& monitor)
       : ids_(edges.size()) {
     const std::vector<std::uint32_t> wanted = edges_at(vertices, edges);
     std::vector<CameraPlanes> views;
@@ -44,7 +44,7 @@ class EdgePlanes {
     const auto each = [&](std::size_t task, const auto& visit) {
       for (std::size_t i = task * kPlanes; i < std::min((task + 1) * kPlanes, wanted.size()); ++i) visit(wanted[i]);
     };
-    nef::parallel_for(tables.size(), threads, monitor, [&](std::size_t task, const nef::Monitor&) {
+    nef::parallel_for(tables.size(), monitor, [&](std::size_t task, const nef::Monitor&) {
       each(task, [&](std::uint32_t e) {
         const auto [a, b, c, d] = views[edges[e].view].through(*edges[e].from, *edges[e].to);
         ids_[e] = tables[task].intern(a, b, c, d);
@@ -226,13 +226,12 @@ std::size_t limbs_of(const std::vector<nef::Complex>& parts) {
 }  // namespace
 
 std::optional<nef::Polyhedron> complex_of(const HullVertices& vertices, const std::vector<ViewingEdge>& edges,
-                                          const std::vector<const Camera*>& cameras, unsigned threads,
-                                          const nef::Monitor& monitor) {
-  EdgePlanes planes(vertices, edges, cameras, threads, monitor);
+                                          const std::vector<const Camera*>& cameras, const nef::Monitor& monitor) {
+  EdgePlanes planes(vertices, edges, cameras, monitor);
   const std::vector<SpotName>& names = vertices.plain;
   std::vector<nef::Complex> parts((names.size() + kVertices - 1) / kVertices);
   std::atomic<bool> good = true;
-  nef::parallel_for(parts.size(), threads, monitor, [&](std::size_t task, const nef::Monitor& own) {
+  nef::parallel_for(parts.size(), monitor, [&](std::size_t task, const nef::Monitor& own) {
     VertexWriter writer(edges, planes, own);
     for (std::size_t i = task * kVertices; i < std::min((task + 1) * kVertices, names.size()); ++i) {
       if (!writer.add(names[i])) good = false;
@@ -247,7 +246,7 @@ std::optional<nef::Polyhedron> complex_of(const HullVertices& vertices, const st
     part = {};
   }
   add_crowded(vertices.crowded, edges, planes, builder, monitor);
-  return nef::Polyhedron(builder.finish(0, threads));
+  return nef::Polyhedron(builder.finish(0));
 }
 
 }  // namespace visual_hull

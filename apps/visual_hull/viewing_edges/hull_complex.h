@@ -18,10 +18,9 @@ struct HullVertices {
 
 /// The closed solid with the given vertices. In a plain one exactly the planes of three edges meet: of three views,
 /// or two neighbours in one silhouette (with those of rings that touch there) and one of another view. Nothing if a
-/// corner is straight. `cameras` are those of the views. O(n log n); planes and vertices on up to `threads` threads,
+/// corner is straight. `cameras` are those of the views. O(n log n); planes and vertices on the threads of `monitor`,
 /// whose number does not change the result.
 std::optional<nef::Polyhedron> complex_of(const HullVertices& vertices, const std::vector<ViewingEdge>& edges,
-                                          const std::vector<const Camera*>& cameras, unsigned threads,
-                                          const nef::Monitor& monitor);
+                                          const std::vector<const Camera*>& cameras, const nef::Monitor& monitor);
 
 }  // namespace visual_hull

@@ -15,15 +15,6 @@
 namespace visual_hull {
 namespace {
 
-using nef::cross;
-using nef::dot;
-
-// Of sums of products of three values, as a part of the product of their sizes. u = 2^-53. A component of a cross
-// product of two normals is off by 2u of the two products and u for their difference: 3u of the product of sizes. Times
-// a third value and summed with two more such terms: u for the products, 2u for the sums: 6u of each of three terms,
-// whose magnitudes sum up to 6 products of sizes at most: 36u. 512u also leaves room for the roundings of the bounds.
-constexpr double kProductRounding = 0x1p-44;
-
 Spot nearest_spot(const ExactPoint& x) {
   Spot spot;
   double largest = 0;
@@ -69,17 +60,18 @@ void PartVertices::collect(std::span<const Shown> views, std::span<const std::ui
   for (const Shown& shown : views) {
     for (std::uint32_t i = shown.begin; i < shown.end; ++i) {
       const ViewingEdge& edge = s_.edges[edges[i]];
-      Facet facet{edges[i], shown.view, {}, edge.offset, 0, 0};
+      CubePlane plane;
+      plane.offset = edge.offset;
       double size = std::abs(edge.offset);
       for (std::size_t k = 0; k < 3; ++k) {
         const double term = edge.normal.at[k] * box_.middle[k];
-        facet.offset += term;
+        plane.offset += term;
         size += std::abs(term);
-        facet.normal[k] = edge.normal.at[k] * box_.half[k];
-        facet.size += std::abs(facet.normal[k]);
+        plane.normal[k] = edge.normal.at[k] * box_.half[k];
+        plane.size += std::abs(plane.normal[k]);
       }
-      facet.error = (size + facet.size) * kRounding + edge.offset_error + 1.0001 * reach * edge.normal.error;
-      facets_.push_back(facet);
+      plane.error = (size + plane.size) * kRounding + edge.offset_error + 1.0001 * reach * edge.normal.error;
+      facets_.push_back({edges[i], shown.view, plane});
     }
   }
 }
@@ -100,52 +92,18 @@ void PartVertices::pair_up() {
     for (std::size_t b = a + 1; b < n; ++b) {
       const Facet& q = facets_[b];
       if (p.view == q.view && !neighbours(p.edge, q.edge)) continue;
-      // A line misses a cube if one of the directions across the line and a side tells them apart.
-      const Double3 d = cross(p.normal, q.normal);
-      const double slack = 2 * (p.size * q.error + q.size * p.error) + kProductRounding * p.size * q.size;
-      const auto passes = [&](std::size_t k, std::size_t l, std::size_t m) {
-        return std::abs(p.normal[k] * q.offset - q.normal[k] * p.offset) <= std::abs(d[l]) + std::abs(d[m]) + slack;
-      };
-      if (!passes(0, 1, 2) || !passes(1, 2, 0) || !passes(2, 0, 1)) continue;
+      const Double3 d = nef::cross(p.plane.normal, q.plane.normal);
+      if (!may_meet_in_cube(p.plane, q.plane, d)) continue;
       meet_[a * words_ + b / 64] |= std::uint64_t{1} << b % 64;
       crosses_[a * n + b] = d;
     }
   }
 }
 
-// Cramer's rule. With errors r of the planes' values at the true point x in the cube, what is found is off by S^-1 r, S
-// the matrix of the normals; its columns are the cross products over the determinant.
-PartVertices::Answer PartVertices::place(std::size_t a, std::size_t b, std::size_t c, Place& result) const {
-  const std::size_t n = facets_.size();
-  const Facet& p = facets_[a];
-  const Facet& q = facets_[b];
-  const Facet& r = facets_[c];
-  const Double3& pq = crosses_[a * n + b];
-  const Double3& pr = crosses_[a * n + c];
-  const Double3& qr = crosses_[b * n + c];
-  const double determinant = dot(pq, r.normal);
-  const double rounding = kProductRounding * p.size * q.size * r.size;
-  double largest = 0;
-  for (std::size_t k = 0; k < 3; ++k) {
-    result.at[k] = q.offset * pr[k] - p.offset * qr[k] - r.offset * pq[k];
-    const double bound =
-        1.01 * (std::abs(qr[k]) * p.error + std::abs(pr[k]) * q.error + std::abs(pq[k]) * r.error) + 2 * rounding;
-    if (std::abs(result.at[k]) > std::abs(determinant) + bound) return Answer::kNo;
-    largest = std::max(largest, bound);
-  }
-  result.error = 1.01 * largest / (std::abs(determinant) - rounding);
-  // A point too near to the border of the cube for this is surely in the cube of a neighbour.
-  if (!(std::abs(determinant) > 2 * rounding && result.error < kOverlap / 8)) return Answer::kVague;
-  for (std::size_t k = 0; k < 3; ++k) {
-    result.at[k] /= determinant;
-    if (std::abs(result.at[k]) + result.error > 1) return Answer::kNo;
-  }
-  return Answer::kYes;
-}
-
 bool PartVertices::consider(std::span<const Shown> views, std::size_t a, std::size_t b, std::size_t c) {
-  Place at;
-  const Answer in_part = place(a, b, c, at);
+  CubePoint at;
+  const Answer in_part = meet_in_cube(facets_[a].plane, facets_[b].plane, facets_[c].plane, cross_of(a, b),
+                                      cross_of(a, c), cross_of(b, c), at);
   if (in_part == Answer::kNo) return true;
   const SpotName name = sorted_name(facets_[a].edge, facets_[b].edge, facets_[c].edge);
   if (in_crowd(name)) return true;
@@ -204,8 +162,8 @@ bool PartVertices::in_crowd(const SpotName& name) const {
 }
 
 // With the exact point, vague is what lies in the boundary of a silhouette.
-PartVertices::Answer PartVertices::on_hull(std::span<const Shown> views, const SpotName& name, const Spot& spot,
-                                           const ExactPoint* exact) const {
+Answer PartVertices::on_hull(std::span<const Shown> views, const SpotName& name, const Spot& spot,
+                             const ExactPoint* exact) const {
   bool vague = false;
   std::array<std::uint32_t, 3> own{};
   for (std::size_t i = 0; i < 3; ++i) own[i] = s_.edges[name[i]].view;

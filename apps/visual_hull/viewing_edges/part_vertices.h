@@ -7,6 +7,7 @@
 
 #include "apps/visual_hull/viewing_edges/edge_scene.h"
 #include "apps/visual_hull/viewing_edges/hull_complex.h"
+#include "apps/visual_hull/viewing_edges/plane_triple.h"
 #include "nef/base/monitor.h"
 
 namespace visual_hull {
@@ -24,9 +25,6 @@ struct Shown {
   std::uint32_t end = 0;
 };
 
-/// Parts of space overlap by so much of their halves, so that every point of space lies well inside of one.
-inline constexpr double kOverlap = 0x1p-16;
-
 /// Finds the vertices of the hull in small parts of space, one part after the other. For one thread.
 class PartVertices {
  public:
@@ -42,29 +40,17 @@ class PartVertices {
   HullVertices found;
 
  private:
-  /// A plane n . x + d in coordinates in which the part is the cube from -1 to 1.
   struct Facet {
     std::uint32_t edge = 0;
     std::uint32_t view = 0;
-    Double3 normal{};
-    double offset = 0;
-    double error = 0;  // by which values in the cube may be wrong
-    double size = 0;   // the sum of the normal's magnitudes
+    CubePlane plane;
   };
-
-  /// A point in these coordinates.
-  struct Place {
-    Double3 at{};
-    double error = 0;
-  };
-
-  enum class Answer : std::uint8_t { kNo, kYes, kVague };
 
   void collect(std::span<const Shown> views, std::span<const std::uint32_t> edges);
   void pair_up();
   [[nodiscard]] bool neighbours(std::uint32_t e, std::uint32_t f) const;
   [[nodiscard]] bool consider(std::span<const Shown> views, std::size_t a, std::size_t b, std::size_t c);
-  [[nodiscard]] Answer place(std::size_t a, std::size_t b, std::size_t c, Place& result) const;
+  [[nodiscard]] const Double3& cross_of(std::size_t a, std::size_t b) const { return crosses_[a * facets_.size() + b]; }
   [[nodiscard]] Answer on_hull(std::span<const Shown> views, const SpotName& name, const Spot& spot,
                                const ExactPoint* exact) const;
   [[nodiscard]] bool consider_exactly(std::span<const Shown> views, const SpotName& name);

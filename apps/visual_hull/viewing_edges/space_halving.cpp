@@ -231,11 +231,10 @@ Task everything(const EdgeScene& scene) {
 }
 
 // Leaves the first one of equal names, and all names in their order.
-void drop_repeated(std::vector<SpotName>& names, unsigned threads, const nef::Monitor& monitor) {
-  auto shares = nef::shared_out<SpotName>(names.size(), threads, monitor, [&](std::size_t i, const auto& put) {
-    put(names[i][0] % nef::kShares, names[i]);
-  });
-  nef::parallel_for(nef::kShares, threads, monitor,
+void drop_repeated(std::vector<SpotName>& names, const nef::Monitor& monitor) {
+  auto shares = nef::shared_out<SpotName>(
+      names.size(), monitor, [&](std::size_t i, const auto& put) { put(names[i][0] % nef::kShares, names[i]); });
+  nef::parallel_for(nef::kShares, monitor,
                     [&shares](std::size_t s, const nef::Monitor&) { std::sort(shares[s].begin(), shares[s].end()); });
   std::map<SpotName, bool> met;  // of the repeated ones, which are few
   for (const std::vector<SpotName>& sorted : shares) {
@@ -249,13 +248,13 @@ void drop_repeated(std::vector<SpotName>& names, unsigned threads, const nef::Mo
 }
 
 // Parts overlap, and three of many planes may be asked for twice.
-HullVertices together(std::vector<HullVertices>& parts, unsigned threads, const nef::Monitor& monitor) {
+HullVertices together(std::vector<HullVertices>& parts, const nef::Monitor& monitor) {
   HullVertices all;
   for (HullVertices& part : parts) {
     all.plain.insert(all.plain.end(), part.plain.begin(), part.plain.end());
     std::move(part.crowded.begin(), part.crowded.end(), std::back_inserter(all.crowded));
   }
-  drop_repeated(all.plain, threads, monitor);
+  drop_repeated(all.plain, monitor);
   std::sort(all.crowded.begin(), all.crowded.end(),
             [](const CrowdedVertex& a, const CrowdedVertex& b) { return a.point < b.point; });
   const auto same = [](const CrowdedVertex& a, const CrowdedVertex& b) { return a.point == b.point; };
@@ -265,7 +264,7 @@ HullVertices together(std::vector<HullVertices>& parts, unsigned threads, const 
 
 }  // namespace
 
-std::optional<HullVertices> hull_vertices(const EdgeScene& scene, unsigned threads, const nef::Monitor& monitor) {
+std::optional<HullVertices> hull_vertices(const EdgeScene& scene, const nef::Monitor& monitor) {
   const std::vector<PartFacet> facets = facets_of(scene);
   std::vector<HullVertices> found;
   std::vector<Task> tasks{everything(scene)};
@@ -274,7 +273,7 @@ std::optional<HullVertices> hull_vertices(const EdgeScene& scene, unsigned threa
     const std::size_t first = found.size();
     found.resize(first + tasks.size());
     std::vector<std::vector<Task>> rest(tasks.size());
-    nef::parallel_for(tasks.size(), threads, monitor, [&](std::size_t k, const nef::Monitor& own) {
+    nef::parallel_for(tasks.size(), monitor, [&](std::size_t k, const nef::Monitor& own) {
       if (!decided.load(std::memory_order_relaxed)) return;
       Halving halving(scene, facets, own);
       std::vector<Task>* const left = depth == kDeepest ? nullptr : &rest[k];
@@ -285,7 +284,7 @@ std::optional<HullVertices> hull_vertices(const EdgeScene& scene, unsigned threa
     tasks.clear();
     for (std::vector<Task>& some : rest) std::move(some.begin(), some.end(), std::back_inserter(tasks));
   }
-  return together(found, threads, monitor);
+  return together(found, monitor);
 }
 
 }  // namespace visual_hull

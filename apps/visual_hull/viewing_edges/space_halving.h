@@ -12,8 +12,8 @@ namespace visual_hull {
 /// All vertices of the hull, and crowded points that may be none; nothing where PartVertices finds none. Space is
 /// halved again and again; a part that a silhouette does not show at all is dropped, the edges of a silhouette that are
 /// not seen in a part are dropped there, and a part that few facets pass gives its vertices. About O(s log s) for s
-/// places where facets come near the surface of the hull, whatever the number of views is. Uses up to `threads`
-/// threads; the result does not depend on their number.
-std::optional<HullVertices> hull_vertices(const EdgeScene& scene, unsigned threads, const nef::Monitor& monitor);
+/// places where facets come near the surface of the hull, whatever the number of views is. On the threads of
+/// `monitor`.
+std::optional<HullVertices> hull_vertices(const EdgeScene& scene, const nef::Monitor& monitor);
 
 }  // namespace visual_hull

@@ -105,9 +105,9 @@ void run_on_threads(std::size_t count, unsigned threads, const std::function<voi
 
 }  // namespace
 
-void parallel_for(std::size_t count, unsigned threads, const Monitor& monitor,
+void parallel_for(std::size_t count, const Monitor& monitor,
                   const std::function<void(std::size_t, const Monitor&)>& body) {
-  if (threads == 1 || count < 2) {
+  if (monitor.threads() == 1 || count < 2) {
     for (std::size_t i = 0; i < count; ++i) {
       monitor.check_interruption();
       body(i, monitor);
@@ -118,11 +118,11 @@ void parallel_for(std::size_t count, unsigned threads, const Monitor& monitor,
   std::vector<PredicateCounts> sums(count);
   FirstFailure failure;
   const std::thread::id here = std::this_thread::get_id();
-  run_on_threads(count, threads, [&](std::size_t i) {
+  run_on_threads(count, monitor.threads(), [&](std::size_t i) {
     if (failure.precedes(i)) return;
     try {
       const bool is_here = std::this_thread::get_id() == here;
-      const Monitor own = (is_here ? monitor : monitor.of_other_thread()).counting(sums[i]);
+      const Monitor own = (is_here ? monitor : monitor.of_other_thread()).counting(sums[i]).on_threads(1);
       own.check_interruption();
       body(i, own);
     } catch (...) {
@@ -133,15 +133,15 @@ void parallel_for(std::size_t count, unsigned threads, const Monitor& monitor,
   failure.rethrow();
 }
 
-void parallel_for_ranges(std::size_t count, std::size_t size, unsigned threads, const Monitor& monitor,
+void parallel_for_ranges(std::size_t count, std::size_t size, const Monitor& monitor,
                          const std::function<void(std::size_t, std::size_t, const Monitor&)>& body) {
-  parallel_for((count + size - 1) / size, threads, monitor,
+  parallel_for((count + size - 1) / size, monitor,
                [&](std::size_t i, const Monitor& own) { body(i * size, std::min(count, (i + 1) * size), own); });
 }
 
-void parallel_calls(unsigned threads, const Monitor& monitor,
-                    std::initializer_list<std::function<void(const Monitor&)>> calls) {
-  parallel_for(calls.size(), threads, monitor, [&](std::size_t i, const Monitor& own) { calls.begin()[i](own); });
+void parallel_calls(const Monitor& monitor, std::initializer_list<std::function<void(const Monitor&)>> calls) {
+  parallel_for(calls.size(), monitor,
+               [&](std::size_t i, const Monitor& own) { calls.begin()[i](own.on_threads(monitor.threads())); });
 }
 
 }  // namespace nef

@@ -3,8 +3,7 @@
 // A GLB file is a chunk of JSON and one of bytes. Reading walks the tree of nodes with exact affine maps, resolves each
 // accessor to a checked range of the binary chunk, and merges equal points. Everything that the JSON says is checked
 // before it is used, as any of it may be wrong: types, ranges, depth, nodes with two parents, and how much more is
-// placed than is stored. Writing appends positions, then the indices of each group of faces, and describes them in the
-// JSON.
+// placed than is stored. Writing adds positions, then the indices of each group of faces, to a document.
 #include "nef/io/mesh/glb_mesh.h"
 
 #include <algorithm>
@@ -18,6 +17,7 @@
 #include "nef/export/nearest_float.h"
 #include "nef/io/binary_cursor.h"
 #include "nef/io/file_bytes.h"
+#include "nef/io/mesh/glb_document.h"
 #include "nef/io/mesh/unfolding.h"
 #include "nef/io/number_text.h"
 #include "nef/mesh/surface/mesh_surface.h"
@@ -29,17 +29,11 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::uint32_t kMagic = 0x46546c67;  // "glTF"
-constexpr std::uint32_t kJsonChunk = 0x4e4f534a;
-constexpr std::uint32_t kBinaryChunk = 0x004e4942;
-enum ComponentType : int { kUint8 = 5121, kUint16 = 5123, kUint32 = 5125, kFloat = 5126 };
-enum PrimitiveMode : std::size_t { kTriangles = 4, kTriangleStrip = 5, kTriangleFan = 6 };
-
 class GlbReader {
  public:
   GlbReader(std::string_view bytes, const std::string& path) : path_(path) {
     BinaryCursor header(bytes, path, 0, std::endian::little);
-    if (header.take<std::uint32_t>("header") != kMagic) fail(FileProblem::kSyntax, "this is no binary glTF");
+    if (header.take<std::uint32_t>("header") != kGlbMagic) fail(FileProblem::kSyntax, "this is no binary glTF");
     if (header.take<std::uint32_t>("header") != 2) fail(FileProblem::kUnsupported, "only version 2 of glTF is read");
     const auto size = header.take<std::uint32_t>("header");
     if (size != bytes.size()) {
@@ -51,12 +45,13 @@ class GlbReader {
     if (!document_.is_object()) fail(FileProblem::kSyntax, "there is no JSON in it");
   }
 
-  Mesh read() {
+  Mesh read(MeshParts* parts) {
     try {
       walk_all();
     } catch (const Json::exception&) {
       fail(FileProblem::kSyntax, "its JSON lacks something or has something of the wrong type");
     }
+    if (parts != nullptr) *parts = std::move(parts_);
     return std::move(mesh_);
   }
 
@@ -73,10 +68,10 @@ class GlbReader {
     const auto type = cursor.take<std::uint32_t>("chunk");
     if (cursor.left() < length) fail(FileProblem::kTruncated, "the file ends in the middle of a chunk; it is cut off");
     const std::string_view chunk = bytes.substr(position + kHead, length);
-    if (type == kJsonChunk && document_.is_null()) {
+    if (type == kGlbJsonChunk && document_.is_null()) {
       document_ = Json::parse(chunk, nullptr, false);
       if (document_.is_discarded()) fail(FileProblem::kSyntax, "the JSON in it is not valid");
-    } else if (type == kBinaryChunk && binary_.empty()) {
+    } else if (type == kGlbBinaryChunk && binary_.empty()) {
       binary_ = chunk;
     }
     return kHead + length;
@@ -150,8 +145,10 @@ class GlbReader {
     }
     placed_nodes_[index] = true;
     const AffineMap here = above.after(placement(node));
+    const std::uint32_t first = faces();
     if (node.contains("mesh")) add_mesh(integer_in(node, "mesh"), here);
     for (const Json& child : array_in(node, "children")) walk(integer(child, "child"), here, depth + 1);
+    name_faces(node, first);
   }
 
   [[nodiscard]] Rational number(const Json& value) const {
@@ -210,11 +207,12 @@ class GlbReader {
     std::string_view bytes;
     std::size_t count = 0;
     std::size_t stride = 0;
-    int type = 0;
+    GlbComponent type = GlbComponent::kFloat;
   };
 
-  [[nodiscard]] int component_type(const Json& accessor) const {
-    for (const int known : {kUint8, kUint16, kUint32, kFloat}) {
+  [[nodiscard]] GlbComponent component_type(const Json& accessor) const {
+    for (const GlbComponent known :
+         {GlbComponent::kUint8, GlbComponent::kUint16, GlbComponent::kUint32, GlbComponent::kFloat}) {
       if (integer_in(accessor, "componentType") == static_cast<std::size_t>(known)) return known;
     }
     fail(FileProblem::kUnsupported, "its numbers are neither floats nor unsigned integers");
@@ -243,7 +241,9 @@ class GlbReader {
     Accessor result;
     result.type = component_type(json);
     result.count = integer_in(json, "count");
-    const std::size_t size = components * (result.type == kUint8 ? 1 : result.type == kUint16 ? 2 : 4);
+    const std::size_t size = components * (result.type == GlbComponent::kUint8    ? 1
+                                           : result.type == GlbComponent::kUint16 ? 2
+                                                                                  : 4);
     const Json& view = item("bufferViews", integer_in(json, "bufferView"));
     const std::size_t buffer = buffer_size(view);
     result.stride = integer_in(view, "byteStride", size);
@@ -272,12 +272,12 @@ class GlbReader {
       return result;
     }
     const Accessor list = accessor(integer_in(primitive, "indices"), "SCALAR", 1);
-    if (list.type == kFloat) fail(FileProblem::kUnsupported, "its indices are floats");
+    if (list.type == GlbComponent::kFloat) fail(FileProblem::kUnsupported, "its indices are floats");
     place(integer_in(primitive, "indices"), list.count);
     for (std::size_t i = 0; i < list.count; ++i) {
-      const std::uint32_t index = list.type == kUint8    ? value<std::uint8_t>(list, i, 0)
-                                  : list.type == kUint16 ? value<std::uint16_t>(list, i, 0)
-                                                         : value<std::uint32_t>(list, i, 0);
+      const std::uint32_t index = list.type == GlbComponent::kUint8    ? value<std::uint8_t>(list, i, 0)
+                                  : list.type == GlbComponent::kUint16 ? value<std::uint16_t>(list, i, 0)
+                                                                       : value<std::uint32_t>(list, i, 0);
       if (index >= vertices) {
         fail(FileProblem::kBadIndex,
              "a triangle names vertex " + std::to_string(index) + ", but there are " + std::to_string(vertices));
@@ -287,12 +287,31 @@ class GlbReader {
     return result;
   }
 
+  [[nodiscard]] std::uint32_t faces() const { return static_cast<std::uint32_t>(mesh_.face_count()); }
+
+  // The faces from `first` on are a part, if the item has a name.
+  void name_faces(const Json& named, std::uint32_t first) {
+    const auto name = named.find("name");
+    if (name == named.end() || !name->is_string() || name->get<std::string>().empty()) return;
+    parts_.push_back({name->get<std::string>(), first, faces()});
+  }
+
   void add_mesh(std::size_t index, const AffineMap& placement) {
+    const std::uint32_t first_of_all = faces();
     for (const Json& primitive : array_of(item("meshes", index).at("primitives"), "primitives")) {
-      const std::size_t mode = integer_in(primitive, "mode", kTriangles);
-      if (mode != kTriangles && mode != kTriangleStrip && mode != kTriangleFan) continue;  // points and lines
+      const auto mode =
+          static_cast<GlbMode>(integer_in(primitive, "mode", static_cast<std::size_t>(GlbMode::kTriangles)));
+      if (mode != GlbMode::kTriangles && mode != GlbMode::kTriangleStrip && mode != GlbMode::kTriangleFan)
+        continue;  // points and lines
+      const std::uint32_t first = faces();
       add_primitive(primitive, mode, placement);
+      const Json& materials = array_in(document_, "materials");
+      const Json number = primitive.value("material", Json());
+      if (number.is_number_unsigned() && number.get<std::size_t>() < materials.size()) {
+        name_faces(materials[number.get<std::size_t>()], first);
+      }
     }
+    name_faces(item("meshes", index), first_of_all);
   }
 
   // Takes note that the elements of an accessor are read, maybe once more.
@@ -301,10 +320,10 @@ class GlbReader {
     unfolding_.add_placed(count);
   }
 
-  void add_primitive(const Json& primitive, std::size_t mode, const AffineMap& placement) {
+  void add_primitive(const Json& primitive, GlbMode mode, const AffineMap& placement) {
     const Json& attributes = primitive.at("attributes");
     const Accessor positions = accessor(integer_in(attributes, "POSITION"), "VEC3", 3);
-    if (positions.type != kFloat) fail(FileProblem::kUnsupported, "its positions are no floats");
+    if (positions.type != GlbComponent::kFloat) fail(FileProblem::kUnsupported, "its positions are no floats");
     place(integer_in(attributes, "POSITION"), positions.count);
     std::vector<std::uint32_t> vertex;
     for (std::size_t v = 0; v < positions.count; ++v) {
@@ -317,11 +336,11 @@ class GlbReader {
       vertex.push_back(merger_.add(placement(point)));
     }
     const std::vector<std::uint32_t> list = indices(primitive, positions.count);
-    const std::size_t step = mode == kTriangles ? 3 : 1;
+    const std::size_t step = mode == GlbMode::kTriangles ? 3 : 1;
     const bool mirrors = placement.determinant() < 0;
     for (std::size_t i = 0; i + 2 < list.size(); i += step) {
-      std::array<std::uint32_t, 3> t{list[mode == kTriangleFan ? 0 : i], list[i + 1], list[i + 2]};
-      if ((mode == kTriangleStrip && i % 2 == 1) != mirrors) std::swap(t[0], t[1]);
+      std::array<std::uint32_t, 3> t{list[mode == GlbMode::kTriangleFan ? 0 : i], list[i + 1], list[i + 2]};
+      if ((mode == GlbMode::kTriangleStrip && i % 2 == 1) != mirrors) std::swap(t[0], t[1]);
       for (std::uint32_t& v : t) v = vertex[v];
       if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh_.push_face(t);
     }
@@ -334,71 +353,51 @@ class GlbReader {
   std::set<std::size_t> known_accessors_;
   Unfolding unfolding_{path_};
   Mesh mesh_;
+  MeshParts parts_;
   VertexMerger merger_{mesh_.vertices};
 };
 
-void append_chunk(std::string& bytes, std::uint32_t type, std::string chunk, char padding) {
-  chunk.resize((chunk.size() + 3) / 4 * 4, padding);
-  append_little_endian(bytes, static_cast<std::uint32_t>(chunk.size()));
-  append_little_endian(bytes, type);
-  bytes += chunk;
-}
-
-// A part of the triangles, with views of their own for the indices.
-nlohmann::ordered_json& append_primitive(nlohmann::ordered_json& document, std::string& binary, const Mesh& mesh,
-                                         const MeshSurface& surface, const std::vector<std::uint32_t>& triangles) {
-  const std::size_t begin = binary.size();
+// A part of the triangles, with indices of their own.
+GlbDocument::Json primitive_of(GlbDocument& document, const Mesh& mesh, const MeshSurface& surface,
+                               const std::vector<std::uint32_t>& triangles, std::size_t positions) {
+  std::vector<std::uint32_t> indices;
+  indices.reserve(3 * triangles.size());
   for (const std::uint32_t t : triangles) {
-    for (const std::uint32_t v : surface.corners_in_face(mesh, t)) append_little_endian(binary, v);
+    for (const std::uint32_t v : surface.corners_in_face(mesh, t)) indices.push_back(v);
   }
-  constexpr int kIndices = 34963;  // what the view is for: ELEMENT_ARRAY_BUFFER
-  nlohmann::ordered_json primitive{
-      {"attributes", {{"POSITION", 0}}}, {"indices", document["accessors"].size()}, {"mode", int{kTriangles}}};
-  document["accessors"].push_back({{"bufferView", document["bufferViews"].size()},
-                                   {"componentType", int{kUint32}},
-                                   {"count", 3 * triangles.size()},
-                                   {"type", "SCALAR"}});
-  document["bufferViews"].push_back(
-      {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", binary.size() - begin}, {"target", kIndices}});
-  document["meshes"][0]["primitives"].push_back(std::move(primitive));
-  return document["meshes"][0]["primitives"].back();
+  return {{"attributes", {{"POSITION", positions}}},
+          {"indices", document.add_indices(indices)},
+          {"mode", static_cast<std::size_t>(GlbMode::kTriangles)}};
 }
 
 // sRGB becomes linear light, which has more than eight bits.
-void append_colors(nlohmann::ordered_json& document, std::string& binary,
-                   const std::vector<std::array<std::uint8_t, 3>>& colors) {
-  const std::size_t begin = binary.size();
+std::size_t add_vertex_colors(GlbDocument& document, const std::vector<std::array<std::uint8_t, 3>>& colors) {
   constexpr std::uint16_t kFull = 65535;
+  std::vector<std::uint16_t> channels;
+  channels.reserve(4 * colors.size());
   for (const auto& color : colors) {
     for (const std::uint8_t channel : color) {
-      append_little_endian(binary, static_cast<std::uint16_t>(std::lround(kFull * linear_light(channel))));
+      channels.push_back(static_cast<std::uint16_t>(std::lround(kFull * linear_light(channel))));
     }
-    append_little_endian(binary, kFull);  // opaque
+    channels.push_back(kFull);  // opaque
   }
-  constexpr int kVertices = 34962;
-  document["accessors"].push_back({{"bufferView", document["bufferViews"].size()},
-                                   {"componentType", int{kUint16}},
-                                   {"normalized", true},
-                                   {"count", colors.size()},
-                                   {"type", "VEC4"}});
-  document["bufferViews"].push_back(
-      {{"buffer", 0}, {"byteOffset", begin}, {"byteLength", binary.size() - begin}, {"target", kVertices}});
-  document["materials"] = {
-      {{"name", "colours"}, {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}}}};
+  document.materials.push_back(
+      {{"name", "colours"}, {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}}});
+  return document.add_colors(channels);
 }
 
-void append_groups(nlohmann::ordered_json& document, std::string& binary, const Mesh& mesh, const MeshSurface& surface,
-                   const FaceGroups& groups) {
+void add_groups(GlbDocument& document, const Mesh& mesh, const MeshSurface& surface, const FaceGroups& groups,
+                std::size_t positions, GlbDocument::Json& primitives) {
   std::vector<std::vector<std::uint32_t>> triangles(groups.names.size());
   for (std::uint32_t t = 0; t < surface.triangles.size(); ++t) {
     if (!groups.none()) triangles[groups.of_face[surface.face_of[t]]].push_back(t);
   }
   for (std::size_t g = 0; g < triangles.size(); ++g) {
     if (triangles[g].empty()) continue;
-    append_primitive(document, binary, mesh, surface, triangles[g])["material"] =
-        document.value("materials", nlohmann::ordered_json::array()).size();
+    primitives.push_back(primitive_of(document, mesh, surface, triangles[g], positions));
+    primitives.back()["material"] = document.materials.size();
     const std::array<std::uint8_t, 3> color = group_color(g);
-    document["materials"].push_back(
+    document.materials.push_back(
         {{"name", groups.names[g]},
          {"pbrMetallicRoughness",
           {{"baseColorFactor", {linear_light(color[0]), linear_light(color[1]), linear_light(color[2]), 1.0}},
@@ -409,65 +408,41 @@ void append_groups(nlohmann::ordered_json& document, std::string& binary, const 
 
 }  // namespace
 
-Mesh read_glb(std::string_view bytes, const std::string& path) { return GlbReader(bytes, path).read(); }
+Mesh read_glb(std::string_view bytes, const std::string& path, MeshParts* parts) {
+  return GlbReader(bytes, path).read(parts);
+}
 
-std::string glb_bytes(const Mesh& mesh, const FaceGroups& groups,
-                      const std::vector<std::array<std::uint8_t, 3>>& vertex_colors, const Rational3& offset,
-                      const Monitor& monitor) {
-  const MeshSurface surface(mesh, monitor);
-  std::string binary;
-  std::array<float, 3> low{};
-  std::array<float, 3> high{};
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const float x = nearest_float(mesh.vertices[v][i]);
-      low[i] = v == 0 ? x : std::min(low[i], x);
-      high[i] = v == 0 ? x : std::max(high[i], x);
-      append_little_endian(binary, x);
-    }
+std::string glb_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
+  const MeshSurface surface(mesh, options.monitor);
+  GlbDocument document;
+  document.scenes.push_back(GlbDocument::Json::object());
+  if (surface.triangles.empty()) return document.bytes();
+  document.scenes[0]["nodes"] = GlbDocument::Json::array({0});
+  const double x = nearest_double(options.offset[0]);
+  const double y = nearest_double(options.offset[1]);
+  const double z = nearest_double(options.offset[2]);
+  document.nodes = {{{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, x, z, 0 - y, 1}}}};
+  std::vector<float> coordinates;
+  coordinates.reserve(3 * mesh.vertices.size());
+  for (const Rational3& vertex : mesh.vertices) {
+    for (const Rational& number : vertex) coordinates.push_back(nearest_float(number));
   }
-  nlohmann::ordered_json document{{"asset", {{"version", "2.0"}, {"generator", "nef"}}}, {"scene", 0}};
-  // The format knows no empty lists.
-  document["scenes"] = nlohmann::ordered_json::array({nlohmann::ordered_json::object()});
-  if (!surface.triangles.empty()) {
-    document["scenes"][0]["nodes"] = nlohmann::ordered_json::array({0});
-    const double x = nearest_double(offset[0]);
-    const double y = nearest_double(offset[1]);
-    const double z = nearest_double(offset[2]);
-    document["nodes"] = {{{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, x, z, 0 - y, 1}}}};
-    document["meshes"] = {{{"primitives", nlohmann::json::array()}}};
-    document["accessors"] = {{{"bufferView", 0},
-                              {"componentType", int{kFloat}},
-                              {"count", mesh.vertices.size()},
-                              {"type", "VEC3"},
-                              {"min", low},
-                              {"max", high}}};
-    constexpr int kVertices = 34962;  // what the view is for: ARRAY_BUFFER
-    document["bufferViews"] = {
-        {{"buffer", 0}, {"byteOffset", 0}, {"byteLength", binary.size()}, {"target", kVertices}}};
-    const std::size_t colors = document["accessors"].size();
-    if (!vertex_colors.empty()) append_colors(document, binary, vertex_colors);
-    if (groups.none()) {
-      std::vector<std::uint32_t> all(surface.triangles.size());
-      std::iota(all.begin(), all.end(), 0U);
-      append_primitive(document, binary, mesh, surface, all);
-      if (!vertex_colors.empty()) document["meshes"][0]["primitives"].back()["material"] = 0;
-    }
-    append_groups(document, binary, mesh, surface, groups);
-    if (!vertex_colors.empty()) {
-      for (auto& primitive : document["meshes"][0]["primitives"]) primitive["attributes"]["COLOR_0"] = colors;
-    }
-    document["buffers"] = {{{"byteLength", binary.size()}}};
+  const std::size_t positions = document.add_floats(coordinates, 3, GlbTarget::kVertices);
+  const bool colored = !options.vertex_colors.empty();
+  const std::size_t colors = colored ? add_vertex_colors(document, options.vertex_colors) : 0;
+  GlbDocument::Json primitives = GlbDocument::Json::array();
+  if (options.groups.none()) {
+    std::vector<std::uint32_t> all(surface.triangles.size());
+    std::iota(all.begin(), all.end(), 0U);
+    primitives.push_back(primitive_of(document, mesh, surface, all, positions));
+    if (colored) primitives.back()["material"] = 0;
   }
-  std::string chunks;
-  // Names may hold bytes that are no UTF-8.
-  append_chunk(chunks, kJsonChunk, document.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), ' ');
-  if (!surface.triangles.empty()) append_chunk(chunks, kBinaryChunk, binary, '\0');
-  std::string bytes;
-  append_little_endian(bytes, kMagic);
-  append_little_endian(bytes, std::uint32_t{2});
-  append_little_endian(bytes, static_cast<std::uint32_t>(12 + chunks.size()));
-  return bytes + chunks;
+  add_groups(document, mesh, surface, options.groups, positions, primitives);
+  if (colored) {
+    for (auto& primitive : primitives) primitive["attributes"]["COLOR_0"] = colors;
+  }
+  document.meshes.push_back({{"primitives", std::move(primitives)}});
+  return document.bytes();
 }
 
 }  // namespace nef

@@ -68,8 +68,8 @@ Finding examine(const Mesh& mesh, const Monitor& monitor) {
 
 class Mender {
  public:
-  Mender(const Mesh& exact, const Rounding& rounding, unsigned threads, const Monitor& monitor)
-      : exact_(exact), rounding_(rounding), threads_(threads), monitor_(monitor), random_(1) {}
+  Mender(const Mesh& exact, const Rounding& rounding, const Monitor& monitor)
+      : exact_(exact), rounding_(rounding), monitor_(monitor), random_(1) {}
 
   std::string problem() {
     round();
@@ -126,10 +126,10 @@ class Mender {
   Finding examine_readings(Make make) const {
     std::vector<Finding> found(rounding_.readings.size());
     bool go_on = true;
-    parallel_for(found.size(), threads_, monitor_, [&](std::size_t i, const Monitor& own) {
-      if (threads_ == 1 && !go_on) return;
+    parallel_for(found.size(), monitor_, [&](std::size_t i, const Monitor& own) {
+      if (monitor_.threads() == 1 && !go_on) return;
       found[i] = examine(make(rounding_.readings[i]), own);
-      if (threads_ == 1) go_on = found[i].legal;
+      if (monitor_.threads() == 1) go_on = found[i].legal;
     });
     for (Finding& one : found) {
       if (!one.legal) return std::move(one);
@@ -319,7 +319,6 @@ class Mender {
 
   const Mesh& exact_;
   const Rounding& rounding_;
-  unsigned threads_;
   Monitor monitor_;
   std::mt19937 random_;  // the same for the same mesh
   std::vector<Point> points_;
@@ -368,8 +367,8 @@ std::string repair_text(const MendedMesh& rounded) {
 
 std::string strict_problem(const Mesh& mesh, const Monitor& monitor) { return examine(mesh, monitor).text; }
 
-std::string rounded_problem(const Mesh& exact, const Rounding& rounding, unsigned threads, const Monitor& monitor) {
-  return Mender(exact, rounding, threads, monitor).problem();
+std::string rounded_problem(const Mesh& exact, const Rounding& rounding, const Monitor& monitor) {
+  return Mender(exact, rounding, monitor).problem();
 }
 
 bool is_kept(const Rational& value, const Rounding& rounding) {
@@ -378,8 +377,8 @@ bool is_kept(const Rational& value, const Rounding& rounding) {
                                                [&](const auto& reading) { return reading(rounded) == value; });
 }
 
-MendedMesh round_mesh(const Mesh& exact, const Rounding& rounding, unsigned threads, const Monitor& monitor) {
-  return Mender(exact, rounding, threads, monitor).run();
+MendedMesh round_mesh(const Mesh& exact, const Rounding& rounding, const Monitor& monitor) {
+  return Mender(exact, rounding, monitor).run();
 }
 
 }  // namespace nef

@@ -47,8 +47,7 @@ std::string repair_text(const MendedMesh& rounded);
 std::string strict_problem(const Mesh& mesh, const Monitor& monitor = {});
 
 /// The same for the mesh with rounded coordinates, in the first reading that has a problem.
-std::string rounded_problem(const Mesh& exact, const Rounding& rounding, unsigned threads = 1,
-                            const Monitor& monitor = {});
+std::string rounded_problem(const Mesh& exact, const Rounding& rounding, const Monitor& monitor = {});
 
 /// True if a number is the same in every reading after rounding: nothing happens to it in a file.
 bool is_kept(const Rational& value, const Rounding& rounding);
@@ -56,8 +55,7 @@ bool is_kept(const Rational& value, const Rounding& rounding);
 /// Rounds the vertices of a legal closed mesh of convex faces. Where the result is not strictly legal, vertices go to
 /// other numbers nearby and slivers are flipped or contracted, as long as that takes few rounds; then all faces are
 /// triangles. What it returns as legal was checked exactly. The cost is that of check_mesh for each reading and round;
-/// the readings are checked side by side on up to `threads` threads (0: as many as the machine has), of which the
-/// result is independent.
-MendedMesh round_mesh(const Mesh& exact, const Rounding& rounding, unsigned threads = 1, const Monitor& monitor = {});
+/// the readings are checked side by side on the threads of `monitor`.
+MendedMesh round_mesh(const Mesh& exact, const Rounding& rounding, const Monitor& monitor = {});
 
 }  // namespace nef

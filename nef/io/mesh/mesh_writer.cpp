@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Each text format is one function from a mesh to bytes, and `write_mesh` chooses among them; GLB and 3MF have files of
-// their own. Before, it refuses what the format cannot hold: exact or binary numbers, colours, and coordinates beyond
-// the range of its numbers.
+// Each text format is one function from a mesh to bytes; GLB and 3MF have files of their own. `write_mesh` takes the
+// one of the table of formats. Before, it refuses what the format cannot hold: exact or binary numbers, colours, and
+// coordinates beyond the range of its numbers.
 #include "nef/io/mesh/mesh_writer.h"
 
 #include <cmath>
@@ -10,8 +10,7 @@
 #include "nef/export/nearest_float.h"
 #include "nef/geometry/vectors.h"
 #include "nef/io/file_bytes.h"
-#include "nef/io/mesh/glb_mesh.h"
-#include "nef/io/mesh/threemf_mesh.h"
+#include "nef/io/mesh/mesh_formats.h"
 #include "nef/io/number_text.h"
 #include "nef/io/text_cursor.h"
 #include "nef/mesh/surface/mesh_surface.h"
@@ -245,40 +244,31 @@ std::string ply_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
   return bytes;
 }
 
-bool has_vertex_colors(const std::string& extension) { return extension == "ply" || extension == "glb"; }
-
-bool has_groups(const std::string& extension) {
-  return extension == "off" || extension == "obj" || extension == "ply" || extension == "glb";
-}
-
-void refuse_infinite(const Mesh& mesh, const std::string& extension, const MeshWriteOptions& options) {
+void refuse_infinite(const Mesh& mesh, const MeshFormat& format, const MeshWriteOptions& options) {
   if (options.exact) return;
-  const bool single = is_single_precision(extension, options);
+  const bool single = format.numbers(options.binary) == FileNumbers::kFloats;
   for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
     for (const Rational& x : mesh.vertices[v]) {
       if (std::isfinite(single ? static_cast<double>(nearest_float(x)) : nearest_double(x))) continue;
       throw FileError(FileProblem::kUnsupported,
                       "a coordinate of vertex " + std::to_string(v) + " of the mesh is beyond " +
-                          (single ? "single precision (3.4e38); write text or .nef, or scale the set"
-                                  : "doubles (1.8e308); write it with --exact to OFF, OBJ or PLY, or write .nef"),
+                          (single ? std::string("single precision (3.4e38); write text or .nef, or scale the set")
+                                  : "doubles (1.8e308); write it with --exact to " + mesh_format_names(kFractions) +
+                                        ", or write .nef"),
                       FileElement::vertex(v));
     }
   }
 }
 
-bool is_single_precision(const std::string& extension, const MeshWriteOptions& options) {
-  return extension == "glb" || (extension == "stl" && options.binary);
-}
-
-bool survives_writing(const Rational3& point, const std::string& extension, const MeshWriteOptions& options) {
+bool survives_writing(const Rational3& point, const MeshFormat& format, const MeshWriteOptions& options) {
   if (options.exact) return true;
+  const FileNumbers numbers = format.numbers(options.binary);
   std::string text;
   Rational back;
   for (const Rational& x : point) {
-    const bool single = is_single_precision(extension, options);
-    const double rounded = single ? static_cast<double>(nearest_float(x)) : nearest_double(x);
+    const double rounded = numbers == FileNumbers::kFloats ? static_cast<double>(nearest_float(x)) : nearest_double(x);
     if (!std::isfinite(rounded)) return false;
-    if (single || options.binary) {
+    if (numbers != FileNumbers::kDecimals) {
       if (cmp(x, exact_rational(rounded)) != 0) return false;
       continue;
     }
@@ -309,32 +299,19 @@ std::string merged_vertices(const Mesh& mesh, bool single) {
 }
 
 void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOptions& options) {
-  const std::string extension = options.format.empty() ? lower_extension(path) : options.format;
-  if (options.exact && (options.binary || extension == "stl" || extension == "glb" || extension == "3mf")) {
-    refuse_format(path, "exact coordinates need OFF, OBJ or text PLY");
+  const MeshFormat& format = mesh_format_of(path, options.format);
+  if (options.exact && (options.binary || !format.has(kFractions))) {
+    refuse_format(path, "exact coordinates need " + mesh_format_names(kFractions) + ", as text");
   }
-  if (options.binary && extension != "stl" && extension != "ply") refuse_format(path, "only STL and PLY can be binary");
-  if (!options.vertex_colors.empty() && !has_vertex_colors(extension)) {
-    refuse_format(path, "the format has no colours of vertices; write PLY or GLB");
+  if (options.binary && !format.has_two_forms()) {
+    const auto has_two = [](const MeshFormat& other) { return other.has_two_forms(); };
+    refuse_format(path, "only " + mesh_format_names(has_two, "and") + " can be binary");
   }
-  refuse_infinite(mesh, extension, options);
-  std::string bytes;
-  if (extension == "off") {
-    bytes = off_bytes(mesh, options);
-  } else if (extension == "obj") {
-    bytes = obj_bytes(mesh, options);
-  } else if (extension == "stl") {
-    bytes = stl_bytes(mesh, options);
-  } else if (extension == "ply") {
-    bytes = ply_bytes(mesh, options);
-  } else if (extension == "glb") {
-    bytes = glb_bytes(mesh, options.groups, options.vertex_colors, options.offset, options.monitor);
-  } else if (extension == "3mf") {
-    bytes = threemf_bytes(mesh, options.offset, options.monitor);
-  } else {
-    refuse_format(path, "the extension names no mesh format; use off, obj, stl, ply, glb or 3mf");
+  if (!options.vertex_colors.empty() && !format.has(kVertexColors)) {
+    refuse_format(path, "the format has no colours of vertices; write " + mesh_format_names(kVertexColors));
   }
-  write_file(path, bytes);
+  refuse_infinite(mesh, format, options);
+  write_file(path, format.write(mesh, options));
 }
 
 }  // namespace nef

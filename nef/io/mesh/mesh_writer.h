@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Polygon meshes to files: OFF, OBJ, STL, PLY, GLB and 3MF.
+// Polygon meshes to files of any format of the table in mesh_formats.h.
 #pragma once
 
 #include <array>
@@ -14,10 +14,13 @@
 
 namespace nef {
 
+struct MeshFormat;
+
+/// How a mesh is written. What a format can hold stands in the table of formats (mesh_formats.h).
 struct MeshWriteOptions {
-  /// Write exact coordinates (p/q) instead of the nearest doubles; OFF, OBJ and text PLY only.
+  /// Write exact coordinates (p/q) instead of the nearest doubles; text of formats with kFractions only.
   bool exact = false;
-  /// Binary STL (single precision) or PLY (doubles) instead of text.
+  /// Binary instead of text; formats of two forms only.
   bool binary = false;
   /// Instead of the extension of the path.
   std::string format = {};
@@ -37,7 +40,7 @@ struct MeshWriteOptions {
   Monitor monitor = {};
 };
 
-/// Writes a mesh in the format that the extension names (off, obj, stl, ply, glb, 3mf), beside the target first and
+/// Writes a mesh in the format that the extension names (see mesh_formats.h), beside the target first and
 /// then renamed into place. Coordinates are rounded once, to the nearest double (the nearest float in binary STL and
 /// GLB), and written with the fewest digits that give it back. STL holds triangles only: polygons are cut. Throws
 /// FileError for an unknown extension, options that the format does not have, coordinates beyond the range of its
@@ -48,12 +51,6 @@ void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOption
 /// Faces may be degenerate then. O(n log n).
 std::string merged_vertices(const Mesh& mesh, bool single);
 
-/// True if a format holds colours of vertices.
-bool has_vertex_colors(const std::string& extension);
-
-/// True if a format holds groups of faces.
-bool has_groups(const std::string& extension);
-
 // The bytes of the single formats.
 std::string off_bytes(const Mesh& mesh, const MeshWriteOptions& options = {});
 std::string obj_bytes(const Mesh& mesh, const MeshWriteOptions& options = {});
@@ -61,13 +58,10 @@ std::string stl_bytes(const Mesh& mesh, const MeshWriteOptions& options = {});
 std::string ply_bytes(const Mesh& mesh, const MeshWriteOptions& options = {});
 
 /// Throws FileError if a coordinate has no finite number near it in the format.
-void refuse_infinite(const Mesh& mesh, const std::string& extension, const MeshWriteOptions& options);
+void refuse_infinite(const Mesh& mesh, const MeshFormat& format, const MeshWriteOptions& options);
 
-/// True if the format holds coordinates in single precision.
-bool is_single_precision(const std::string& extension, const MeshWriteOptions& options);
-
-/// True if a point is the same after it was written to the format of that extension and read
-/// again: its coordinates are short decimals in text, doubles or floats in binary. Polygons of such points stay planar.
-bool survives_writing(const Rational3& point, const std::string& extension, const MeshWriteOptions& options);
+/// True if a point is the same after it was written to the format and read again: its coordinates are short decimals in
+/// text, doubles or floats in binary. Polygons of such points stay planar.
+bool survives_writing(const Rational3& point, const MeshFormat& format, const MeshWriteOptions& options);
 
 }  // namespace nef

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Wavefront OBJ: the lines v and f. Indices count from one, or back from the last vertex if they are negative.
+// Wavefront OBJ: the lines v and f, and o and g for the names of parts. Indices count from one, or back from the last
+// vertex if they are negative.
 #include <array>
 
 #include "nef/io/mesh/mesh_reader.h"
@@ -81,11 +82,61 @@ void check_indices(const TextCursor& cursor, const Mesh& mesh, const std::vector
   }
 }
 
+// The current object and groups, which are parts from one line o or g to the next.
+class NamedRuns {
+ public:
+  explicit NamedRuns(MeshParts* parts) : parts_(parts) {}
+
+  // Behind the word o, which takes the whole line, or g, which takes words.
+  void read(TextCursor& cursor, bool is_object, std::uint32_t face) {
+    MeshParts& open = is_object ? object_ : groups_;
+    end(open, face);
+    std::string name;
+    for (std::string_view word = next_word(cursor); !word.empty(); word = next_word(cursor)) {
+      if (!is_object) {
+        open.push_back({std::string(word), face, face});
+        continue;
+      }
+      if (!name.empty()) name += ' ';
+      name += word;
+    }
+    if (!name.empty()) open.push_back({std::move(name), face, face});
+  }
+
+  void finish(std::uint32_t face) {
+    end(object_, face);
+    end(groups_, face);
+  }
+
+ private:
+  void end(MeshParts& open, std::uint32_t face) {
+    for (MeshPart& part : open) {
+      part.last = face;
+      if (parts_ != nullptr && part.first < face) parts_->push_back(std::move(part));
+    }
+    open.clear();
+  }
+
+  MeshParts* parts_;
+  MeshParts object_;
+  MeshParts groups_;
+};
+
 }  // namespace
 
-Mesh read_obj(std::string_view bytes, const std::string& path) {
+// A line of OBJ comes first, but for comments. Words of other files that an OBJ might begin with tell nothing.
+bool is_obj(std::string_view bytes) {
+  const std::string no_path;
+  if (is_binary_stl(bytes)) return false;
+  const std::string_view word = TextCursor(bytes, no_path).word();
+  return word == "v" || word == "o" || word == "g" || word == "mtllib" || word == "usemtl" || word == "vt" ||
+         word == "vn";
+}
+
+Mesh read_obj(std::string_view bytes, const std::string& path, MeshParts* parts) {
   TextCursor cursor(bytes, path);
   Mesh mesh;
+  NamedRuns runs(parts);
   std::vector<std::size_t> lines;
   while (!cursor.at_end()) {
     const std::string_view word = cursor.word_in_line();
@@ -93,6 +144,8 @@ Mesh read_obj(std::string_view bytes, const std::string& path) {
       read_vertex(cursor, mesh);
     } else if (word == "f" || word == "fo") {
       read_face(cursor, mesh, lines);
+    } else if (word == "o" || word == "g") {
+      runs.read(cursor, word == "o", static_cast<std::uint32_t>(mesh.face_count()));
     } else if (!is_other_keyword(word)) {
       // A file without vertices so far may be anything, and nothing of it is told.
       cursor.fail(FileProblem::kSyntax,
@@ -103,6 +156,7 @@ Mesh read_obj(std::string_view bytes, const std::string& path) {
     }
     cursor.skip_line();
   }
+  runs.finish(static_cast<std::uint32_t>(mesh.face_count()));
   check_indices(cursor, mesh, lines);
   return mesh;
 }

@@ -102,6 +102,11 @@ void read_faces(TextCursor& cursor, const OffHeader& header, Mesh& mesh) {
 
 }  // namespace
 
+bool is_off(std::string_view bytes) {
+  const std::string no_path;
+  return !is_binary_stl(bytes) && TextCursor(bytes, no_path).word().ends_with("OFF");
+}
+
 Mesh read_off(std::string_view bytes, const std::string& path) {
   TextCursor cursor(bytes, path);
   const OffHeader header = read_off_header(cursor);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // PLY, text and binary of both byte orders: the properties x, y, z of the element vertex and the list vertex_indices
-// of the element face. Everything else is skipped by its declared type.
+// of the elements face and tristrips. Everything else is skipped by its declared type.
 #include <cmath>
 #include <optional>
 
@@ -242,8 +242,32 @@ void read_face(Source& source, const Property& list, Mesh& mesh) {
   mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corners.size()));
 }
 
+// Triangles of three successive corners each, every second one turned over; -1 begins another strip. Those that name a
+// corner twice turn a strip around and are no faces.
+template <typename Source>
+void read_strips(Source& source, const Property& list, Mesh& mesh) {
+  const std::int64_t size = source.integer(*list.count);
+  std::array<std::uint32_t, 3> t{};
+  std::size_t in_strip = 0;
+  for (std::int64_t i = 0; i < size; ++i) {
+    const std::int64_t index = source.integer(list.type);
+    if (index == -1) {
+      in_strip = 0;
+      continue;
+    }
+    if (index < 0 || index > 0x7fffffff) {
+      source.fail(FileProblem::kBadIndex, "a triangle strip names vertex " + std::to_string(index));
+    }
+    t = {t[1], t[2], static_cast<std::uint32_t>(index)};
+    if (++in_strip < 3 || t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;
+    const bool turned = in_strip % 2 == 0;
+    mesh.push_face(std::array<std::uint32_t, 3>{turned ? t[1] : t[0], turned ? t[0] : t[1], t[2]});
+  }
+}
+
 template <typename Source>
 void read_faces(Source& source, const Element& element, Mesh& mesh) {
+  const bool strips = element.name == "tristrips";
   bool found = false;
   const auto is_list = [](const Property& property) {
     return property.count && (property.name == "vertex_indices" || property.name == "vertex_index");
@@ -254,7 +278,9 @@ void read_faces(Source& source, const Element& element, Mesh& mesh) {
   }
   for (std::size_t f = 0; f < element.count; ++f) {
     for (const Property& property : element.properties) {
-      if (is_list(property)) {
+      if (is_list(property) && strips) {
+        read_strips(source, property, mesh);
+      } else if (is_list(property)) {
         read_face(source, property, mesh);
       } else {
         skip_property(source, property);
@@ -271,10 +297,8 @@ Mesh read_elements(Source& source, const Header& header) {
     if (element.name == "vertex") {
       read_vertices(source, element, mesh);
       vertices = true;
-    } else if (element.name == "face") {
+    } else if (element.name == "face" || element.name == "tristrips") {
       read_faces(source, element, mesh);
-    } else if (element.name == "tristrips") {
-      source.fail(FileProblem::kUnsupported, "triangle strips are not read; convert them to faces");
     } else {
       if (element.properties.empty()) continue;
       for (std::size_t i = 0; i < element.count; ++i) {

@@ -125,6 +125,8 @@ Mesh read_text(std::string_view bytes, const std::string& path) {
 
 }  // namespace
 
+bool is_stl(std::string_view bytes) { return bytes.starts_with("solid") || is_binary_stl(bytes); }
+
 bool is_binary_stl(std::string_view bytes) {
   return bytes.size() >= kHeader && bytes.size() == kHeader + kTriangle * binary_count(bytes);
 }

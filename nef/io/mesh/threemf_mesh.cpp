@@ -41,6 +41,7 @@ struct Use {
 
 struct Object {
   bool counts = true;  // it is no support
+  std::string name;    // else the id
   std::vector<Rational3> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Use> components;
@@ -87,6 +88,8 @@ class PartReader {
     } else if (e.name == "object") {
       object_ = &part_.objects[need(e, "id")];
       *object_ = {};
+      const std::string* name = e.find("name");
+      object_->name = name != nullptr && !name->empty() ? *name : need(e, "id");
       const std::string* type = e.find("type");
       object_->counts = type == nullptr || *type == "model" || *type == "surface" || *type == "other";
     } else if (e.name == "component" && object_ != nullptr) {
@@ -184,9 +187,10 @@ class ModelReader {
  public:
   ModelReader(std::string_view bytes, const std::string& path) : path_(path), archive_(bytes, path) {}
 
-  Mesh read() {
+  Mesh read(MeshParts* parts) {
     const std::string root = model_part(archive_, path_);
     for (const Use& item : part(root).items) place(item, AffineMap::identity(), 0);
+    if (parts != nullptr) *parts = std::move(placed_);
     return std::move(mesh_);
   }
 
@@ -217,8 +221,10 @@ class ModelReader {
     if (!object.counts) return;
     unfolding_.add_placed(items_in(object));
     const AffineMap placement = outer.after(use.placement);
+    const auto first = static_cast<std::uint32_t>(mesh_.face_count());
     add(object, placement);
     for (const Use& component : object.components) place(component, placement, depth + 1);
+    placed_.push_back({object.name, first, static_cast<std::uint32_t>(mesh_.face_count())});
   }
 
   void add(const Object& object, const AffineMap& placement) {
@@ -238,15 +244,18 @@ class ModelReader {
   std::map<std::string, ArchivePart> parts_;  // by name with a slash in front
   Unfolding unfolding_{path_};
   Mesh mesh_;
+  MeshParts placed_;
   VertexMerger merger_{mesh_.vertices};
 };
 
 }  // namespace
 
-Mesh read_3mf(std::string_view bytes, const std::string& path) { return ModelReader(bytes, path).read(); }
+Mesh read_3mf(std::string_view bytes, const std::string& path, MeshParts* parts) {
+  return ModelReader(bytes, path).read(parts);
+}
 
-std::string threemf_bytes(const Mesh& mesh, const Rational3& offset, const Monitor& monitor) {
-  const MeshSurface surface(mesh, monitor);
+std::string threemf_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
+  const MeshSurface surface(mesh, options.monitor);
   std::string model = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en\" xmlns=\"";
   model += kCore;
   model += "\">\n <metadata name=\"Application\">nef</metadata>\n <resources>\n";
@@ -274,9 +283,9 @@ std::string threemf_bytes(const Mesh& mesh, const Rational3& offset, const Monit
   model += " </resources>\n <build>";
   if (!surface.triangles.empty()) {
     model += "<item objectid=\"1\"";
-    if (!is_zero(offset)) {
+    if (!is_zero(options.offset)) {
       model += " transform=\"1 0 0 0 1 0 0 0 1";
-      for (const Rational& x : offset) {
+      for (const Rational& x : options.offset) {
         model += ' ';
         append_number(model, nearest_double(x));
       }

@@ -346,7 +346,7 @@ class BinaryReader {
     file_.demand(n_.shells == 0 ? n_.volumes == 1 : volume_of[0] == 0 && volume_of[n_.shells - 1] + 1 == n_.volumes,
                  "a volume has no boundary");
     fill_shells(shell_of);
-    name_sides_of_facets(c_, 1, monitor_);
+    name_sides_of_facets(c_, monitor_);
     for (std::uint32_t i = 0; i < c_.patterns.size(); ++i) {
       const SphereMapView map = c_.patterns.view(PatternId{i});
       file_.demand(map.mark != kOutside, "only the outer volume is outside");

@@ -2,7 +2,8 @@
 //
 // Vertices at equal points are merged; then each face is cut along the coordinate axis along which it looks largest, or
 // along another one if its projection there is no simple polygon. A convex ring is cut as a fan, others by the
-// `Triangulator`. Whether a face is planar is tested exactly, by the plane of three corners that are not on one line.
+// `Triangulator`. Whether a face is planar is tested exactly, by the plane of three corners that are not on one line;
+// one that is not is cut again, in an order that does not depend on how its corners are listed.
 #include "nef/mesh/surface/mesh_surface.h"
 
 #include <algorithm>
@@ -112,6 +113,38 @@ Cut cut(const MeshPoints& points, Triangulator& triangulator, const std::vector<
   return Cut::kFailed;
 }
 
+// True if the first ring comes before the second one, of as many corners, by the first corner where they differ.
+bool is_less(const MeshPoints& points, const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
+  const auto [x, y] = std::mismatch(a.begin(), a.end(), b.begin());
+  return x != a.end() && points.compare(*x, *y) < 0;
+}
+
+// Cuts a ring in no plane, where the surface depends on the cut: the same way wherever the ring begins and whichever
+// way it turns, so that a face and its back cancel, and a mesh that is turned over bounds what it did. Of all ways to
+// walk along the ring from one of its least corners, the least one is cut.
+Cut cut_bent(const MeshPoints& points, Triangulator& triangulator, const std::vector<std::uint32_t>& ring,
+             std::vector<std::array<std::uint32_t, 3>>& out, const Monitor& monitor) {
+  const std::uint32_t least = *std::min_element(
+      ring.begin(), ring.end(), [&](std::uint32_t a, std::uint32_t b) { return points.compare(a, b) < 0; });
+  std::vector<std::uint32_t> best;
+  bool is_reversed = false;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (ring[i] != least) continue;
+    std::vector<std::uint32_t> walk = ring;
+    std::rotate(walk.begin(), walk.begin() + static_cast<std::ptrdiff_t>(i), walk.end());
+    for (const bool reversed : {false, true}) {
+      if (reversed) std::reverse(walk.begin() + 1, walk.end());
+      if (!best.empty() && !is_less(points, walk, best)) continue;
+      best = walk;
+      is_reversed = reversed;
+    }
+  }
+  const std::size_t first = out.size();
+  const Cut done = cut(points, triangulator, best, out, monitor);
+  for (std::size_t t = first; is_reversed && t < out.size(); ++t) std::swap(out[t][1], out[t][2]);
+  return done;
+}
+
 }  // namespace
 
 std::array<std::size_t, 3> projection_axes(const MeshPoints& points, const std::vector<std::uint32_t>& ring) {
@@ -164,6 +197,7 @@ MeshSurface::MeshSurface(const Mesh& mesh, const Monitor& monitor)
     ring.clear();
     bool bad = false;
     bool in_one_piece = false;
+    bool is_flat = true;
     for (const std::uint32_t v : mesh.face(f)) {
       bad = bad || v >= mesh.vertices.size();
       if (!bad) ring.push_back(place[v]);
@@ -185,13 +219,19 @@ MeshSurface::MeshSurface(const Mesh& mesh, const Monitor& monitor)
         triangles.push_back({ring[0], ring[1], ring[2]});
       }
     } else {
-      const Cut done = cut(points, triangulator, ring, triangles, monitor);
+      const std::size_t first = triangles.size();
+      Cut done = cut(points, triangulator, ring, triangles, monitor);
+      is_flat = is_planar(points, ring, done == Cut::kConvex, monitor);
+      if (!is_flat) {
+        triangles.resize(first);
+        done = cut_bent(points, triangulator, ring, triangles, monitor);
+      }
       if (done == Cut::kFailed) {
         defects[f] = on_one_line(points, ring, monitor) ? FaceDefect::kNoArea : FaceDefect::kCrossesItself;
       }
       in_one_piece = done == Cut::kConvex;
     }
-    planar.push_back(bad || ring.size() < 4 || is_planar(points, ring, in_one_piece, monitor));
+    planar.push_back(is_flat);
     if (defects[f] == FaceDefect::kNone && planar[f] && !irregular[f] && ring.size() > 3) {
       rings.insert(rings.end(), ring.begin(), ring.end());
     }

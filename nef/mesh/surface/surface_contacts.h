@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -103,6 +104,9 @@ struct FaceContact {
   SurfaceContacts::Kind kind = SurfaceContacts::Kind::kNone;  ///< the worst of those between their triangles
   bool covers = false;                                        ///< two of their triangles cover each other
 };
+
+/// Those of a surface, if they have been looked for.
+using KnownContacts = std::optional<std::vector<FaceContact>>;
 
 /// All contacts of a surface, each pair of faces once, in lexicographic order.
 std::vector<FaceContact> face_contacts(const MeshSurface& surface, const SurfaceContacts& contacts);

@@ -368,6 +368,7 @@ void SurfacePatches::for_each_candidate(const Visit& visit) const {
     if (!patch.proper) within(faces_, patch, ordered);
   }
   std::vector<std::array<std::uint32_t, 2>> pairs;
+  pairs.reserve(4 * faces_.patches.size());
   const std::size_t limit = kManyPairs * faces_.patches.size() + 1000;
   const auto settled = [&](const Patch& p, const Patch& q) {
     return p.size() == 1 && q.size() == 1 && stars_.settle(surface_.triangles[p.first], surface_.triangles[q.first]);

@@ -14,10 +14,10 @@
 #include <vector>
 
 #include "nef/base/threads/parallel.h"
+#include "nef/complex/predicates_of_sets.h"
 #include "nef/geometry/vectors.h"
 #include "nef/number/interval.h"
 #include "nef/polyhedron.h"
-#include "nef/query/predicates_of_sets.h"
 
 namespace nef {
 namespace {
@@ -76,10 +76,10 @@ constexpr std::size_t kFacets = 4096;  // of a task
 
 // The sum of of_facet(f) over all facets, some thousands at a time: it does not depend on the threads.
 template <typename OfFacet>
-Interval summed(const Complex& c, unsigned threads, const Monitor& monitor, const OfFacet& of_facet) {
+Interval summed(const Complex& c, const Monitor& monitor, const OfFacet& of_facet) {
   const std::size_t facets = c.facets.size();
   std::vector<Interval> sums((facets + kFacets - 1) / kFacets);
-  parallel_for(sums.size(), threads, monitor, [&](std::size_t task, const Monitor&) {
+  parallel_for(sums.size(), monitor, [&](std::size_t task, const Monitor&) {
     const std::size_t first = task * kFacets;
     for (const FacetId f : IdRange(FacetId{first}, FacetId{std::min(first + kFacets, facets)})) {
       sums[task] += of_facet(f);
@@ -102,11 +102,14 @@ Interval3 exactly(const Double3& p) { return {p[0], p[1], p[2]}; }
 
 }  // namespace
 
-MeasuredVolume approximate_volume(const Polyhedron& a, unsigned threads, const Monitor& monitor) {
-  const Complex& c = a.complex();
+MeasuredVolume approximate_volume(const Polyhedron& a, const Monitor& monitor) {
+  return approximate_volume(a.complex(), monitor);
+}
+
+MeasuredVolume approximate_volume(const Complex& c, const Monitor& monitor) {
   if (has_infinite_volume(c)) return {HUGE_VAL, 0};
   const Interval3 origin = exactly(some_point(c));
-  const Interval six_volumes = summed(c, threads, monitor, [&](FacetId f) {
+  const Interval six_volumes = summed(c, monitor, [&](FacetId f) {
     const Facet facet = c.facets[f];
     const int side = side_of_set(c, f, facet);
     if (side == 0) return Interval();
@@ -117,12 +120,12 @@ MeasuredVolume approximate_volume(const Polyhedron& a, unsigned threads, const M
   return {result.middle(), result.radius()};
 }
 
-MeasuredArea approximate_area(const Polyhedron& a, unsigned threads, const Monitor& monitor) {
+MeasuredArea approximate_area(const Polyhedron& a, const Monitor& monitor) {
   const Complex& c = a.complex();
   for (const FacetId f : c.facets.ids()) {
     if (!is_box_facet(c, f) && !has_finite_corners(c, c.facets[f])) return {HUGE_VAL, 0};
   }
-  const Interval twice = summed(c, threads, monitor, [&](FacetId f) {
+  const Interval twice = summed(c, monitor, [&](FacetId f) {
     if (is_box_facet(c, f)) return Interval();
     const Facet facet = c.facets[f];
     const Interval3 area = twice_area(c, facet, first_corner(c, facet));

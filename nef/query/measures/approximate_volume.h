@@ -21,7 +21,9 @@ struct MeasuredVolume {
 
 /// The volume of a set (the exact one: nef::volume); infinite, with no error, if that is. O(n). The number does not
 /// depend on that of the threads (0: as many as the machine has).
-MeasuredVolume approximate_volume(const Polyhedron& a, unsigned threads = 1, const Monitor& monitor = {});
+MeasuredVolume approximate_volume(const Polyhedron& a, const Monitor& monitor = {});
+/// The same for the set that a complex stands for.
+MeasuredVolume approximate_volume(const Complex& c, const Monitor& monitor = {});
 
 /// An area that is off by at most `error`.
 struct MeasuredArea {
@@ -32,7 +34,7 @@ struct MeasuredArea {
 /// The area of all facets of a set, each once; infinite, with no error, if one is unbounded. nef::surface_area, which
 /// is off by some units in the last place only, takes longer than making a detailed set. O(n). The number does not
 /// depend on that of the threads.
-MeasuredArea approximate_area(const Polyhedron& a, unsigned threads = 1, const Monitor& monitor = {});
+MeasuredArea approximate_area(const Polyhedron& a, const Monitor& monitor = {});
 
 /// The centre of mass and the inertia tensor about it of a set of density one.
 struct MeasuredMoments {

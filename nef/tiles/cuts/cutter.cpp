@@ -74,7 +74,7 @@ class Cutter::Halves {
       v = end;
     }
     for (std::size_t x = 0; x < 2; ++x) {
-      builder_[x].copy(copies_[x], 1, monitor_);
+      builder_[x].copy(copies_[x], monitor_);
       copies_[x] = {};
     }
     for (const VertexId v : side_.ids()) {
@@ -304,12 +304,12 @@ std::vector<Part> first_parts(Cutter& cutter, Complex&& piece, std::size_t enoug
   return parts;
 }
 
-TileRef subdivided_in_parallel(Cutter& cutter, Complex&& piece, const Tiling& tiling, unsigned threads,
-                               const Monitor& monitor) {
+TileRef subdivided_in_parallel(Cutter& cutter, Complex&& piece, const Tiling& tiling, const Monitor& monitor) {
   constexpr std::size_t kPartsPerThread = 4;
+  const unsigned threads = monitor.threads();
   const std::size_t workers = threads == 0 ? std::max(1U, std::thread::hardware_concurrency()) : threads;
   std::vector<Part> parts = first_parts(cutter, std::move(piece), kPartsPerThread * workers);
-  parallel_for(parts.size(), threads, monitor, [&](std::size_t i, const Monitor& own) {
+  parallel_for(parts.size(), monitor, [&](std::size_t i, const Monitor& own) {
     if (parts[i].halved) return;
     std::vector<std::uint32_t> row;
     Cutter of_part(own_planes(cutter.planes(), parts[i].piece, row), tiling, own);
@@ -324,20 +324,20 @@ TileRef subdivided_in_parallel(Cutter& cutter, Complex&& piece, const Tiling& ti
 
 }  // namespace
 
-TileRef subdivided(const Polyhedron& set, const Tiling& tiling, unsigned threads, const Monitor& monitor) {
+TileRef subdivided(const Polyhedron& set, const Tiling& tiling, const Monitor& monitor) {
   const Complex& complex = set.complex();
   if (complex.vertex_count() <= tiling.limit) return tile_leaf(set, tiling.store);
   Cutter cutter(complex.planes, tiling, monitor);
   Complex piece = cutter.loose(complex);
-  TileRef tree = threads == 1 ? cutter.subdivide(std::move(piece))
-                              : subdivided_in_parallel(cutter, std::move(piece), tiling, threads, monitor);
+  TileRef tree = monitor.threads() == 1 ? cutter.subdivide(std::move(piece))
+                                        : subdivided_in_parallel(cutter, std::move(piece), tiling, monitor);
   return tree.node->kind == TileNode::Kind::kTile ? tile_leaf(set, tiling.store) : tree;
 }
 
 TileRef fully_cut(const TileRef& tree, const Tiling& tiling, const Monitor& monitor) {
   TileRef result = tree;
   if (tree.node->kind == TileNode::Kind::kTile && tree.node->uncut) {
-    result = subdivided(tree.node->set(), tiling, tiling.threads, monitor);
+    result = subdivided(tree.node->set(), tiling, monitor);
     if (tree.complemented) result = result.complement();
   } else if (tree.node->kind == TileNode::Kind::kCut) {
     const std::array<TileRef, 2> old = children(tree);

@@ -62,9 +62,9 @@ class Cutter {
   std::vector<std::uint32_t> row_;  // scratch of linked()
 };
 
-/// A set in its region as a tree of tiles of at most tiling.limit vertices, where planes can separate them, on up to
-/// `threads` threads. O(n log n).
-TileRef subdivided(const Polyhedron& set, const Tiling& tiling, unsigned threads, const Monitor& monitor);
+/// A set in its region as a tree of tiles of at most tiling.limit vertices, where planes can separate them, on the
+/// threads of `monitor`. O(n log n).
+TileRef subdivided(const Polyhedron& set, const Tiling& tiling, const Monitor& monitor);
 
 /// A tree with its uncut leaves cut as subdivided() does.
 TileRef fully_cut(const TileRef& tree, const Tiling& tiling, const Monitor& monitor);

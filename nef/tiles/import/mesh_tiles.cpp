@@ -43,7 +43,7 @@ class MeshTiler {
         [this](std::uint32_t t, std::size_t axis) { return extent(t, axis); }, most);
     std::vector<TileRef> trees(division.parts().size());
     std::atomic<std::size_t> done = 0;
-    parallel_for(trees.size(), tiling_.threads, monitor, [&](std::size_t i, const Monitor& own) {
+    parallel_for(trees.size(), monitor, [&](std::size_t i, const Monitor& own) {
       const Mesh faces = part(division.take_items(i));
       const Region& region = division.parts()[i].region;
       trees[i] =

@@ -159,7 +159,7 @@ std::optional<TileRef> solid_in_region(const Mesh& faces, const Region& region, 
   whole = Complex();
   RegionFiller filler(cutter.linked(cutter.restricted(std::move(piece), region)), monitor);
   if (!filler.find_sides(inside)) return std::nullopt;
-  return subdivided(Polyhedron(filler.fill()), tiling, 1, monitor);
+  return subdivided(Polyhedron(filler.fill()), tiling, monitor);
 }
 
 }  // namespace nef

@@ -40,9 +40,9 @@ RegionalUnion::RegionalUnion(std::vector<Box> boxes, std::size_t most)
 
 TileRef RegionalUnion::unite_in(std::size_t region, std::vector<Polyhedron>&& sets, const Tiling& tiling,
                                 const Monitor& monitor) const {
-  const Polyhedron all = in_two_marks(unite_all(std::exchange(sets, {}), 1, monitor), monitor);
+  const Polyhedron all = in_two_marks(unite_all(std::exchange(sets, {}), monitor), monitor);
   const Region& where = division_.parts()[region].region;
-  if (where.unbounded()) return subdivided(all, tiling, 1, monitor);
+  if (where.unbounded()) return subdivided(all, tiling, monitor);
   if (all.is_empty() || all.is_everything()) return uniform_leaf(all.is_empty() ? 0 : 1);
   Cutter cutter(all.complex().planes, tiling, monitor);
   return cutter.subdivide(cutter.restricted(cutter.loose(all.complex()), where));
@@ -54,10 +54,10 @@ bool RegionalUnion::is_spread() const {
   return met <= 2 * boxes_.size();
 }
 
-RegionalUnion divide_pieces(const PieceSource& pieces, unsigned threads, std::size_t most, const Monitor& monitor) {
+RegionalUnion divide_pieces(const PieceSource& pieces, std::size_t most, const Monitor& monitor) {
   std::vector<Box> boxes(pieces.count);
   std::atomic<std::uint32_t> measured = 0;
-  parallel_for(pieces.count, threads, monitor, [&](std::size_t i, const Monitor& own) {
+  parallel_for(pieces.count, monitor, [&](std::size_t i, const Monitor& own) {
     boxes[i] = region_box(union_operand(pieces.set(static_cast<std::uint32_t>(i), own)));
     own.tell_progress_of_item("boxes of the pieces", measured++, pieces.count);
   });
@@ -66,14 +66,14 @@ RegionalUnion divide_pieces(const PieceSource& pieces, unsigned threads, std::si
 
 TiledPolyhedron union_in_tiles(const PieceSource& pieces, const Tiling& tiling, std::size_t most,
                                const Monitor& monitor) {
-  return union_in_tiles(pieces, divide_pieces(pieces, tiling.threads, most, monitor), tiling, monitor);
+  return union_in_tiles(pieces, divide_pieces(pieces, most, monitor), tiling, monitor);
 }
 
 TiledPolyhedron union_in_tiles(const PieceSource& pieces, const RegionalUnion& regions, const Tiling& tiling,
                                const Monitor& monitor) {
   std::vector<TileRef> trees(regions.region_count());
   std::atomic<std::size_t> done = 0;
-  parallel_for(trees.size(), tiling.threads, monitor, [&](std::size_t r, const Monitor& own) {
+  parallel_for(trees.size(), monitor, [&](std::size_t r, const Monitor& own) {
     std::vector<Polyhedron> sets;
     for (const std::uint32_t piece : regions.pieces_of(r)) sets.push_back(pieces.set(piece, own));
     trees[r] = regions.unite_in(r, std::move(sets), tiling, own);

@@ -58,12 +58,11 @@ class RegionalUnion {
 /// The box of a piece for RegionalUnion: empty for the empty set, all of space where the set is unbounded.
 Box region_box(const UnionOperand& piece);
 
-/// The regions for some pieces, each of which is made once, on up to `threads` threads.
-RegionalUnion divide_pieces(const PieceSource& pieces, unsigned threads, std::size_t most = kSetsOfARegion,
-                            const Monitor& monitor = {});
+/// The regions for some pieces, each of which is made once.
+RegionalUnion divide_pieces(const PieceSource& pieces, std::size_t most = kSetsOfARegion, const Monitor& monitor = {});
 
-/// The union of all pieces. Regions of at most `most` pieces are made on up to tiling.threads threads; what is in
-/// memory are the pieces of as many regions, and the tiles (see Tiling::store). O(n log n) for pieces that meet few
+/// The union of all pieces. Regions of at most `most` pieces are made at once on the threads of `monitor`; what is
+/// in memory are the pieces of as many regions, and the tiles (see Tiling::store). O(n log n) for pieces that meet few
 /// others.
 TiledPolyhedron union_in_tiles(const PieceSource& pieces, const Tiling& tiling = {.limit = kVerticesOfTileInFile},
                                std::size_t most = kSetsOfARegion, const Monitor& monitor = {});

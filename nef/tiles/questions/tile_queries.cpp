@@ -59,6 +59,14 @@ bool bounded(const Region& region) {
          std::all_of(region.high.begin(), region.high.end(), closed);
 }
 
+// Items of tiles have no numbers.
+Location location_of_kind(Location::Kind kind, LabelId mark) {
+  Location result;
+  result.kind = kind;
+  result.mark = mark;
+  return result;
+}
+
 }  // namespace
 
 Location PyramidInTiles::location(const Monitor& monitor) const {
@@ -67,7 +75,7 @@ Location PyramidInTiles::location(const Monitor& monitor) const {
                     : !view.svertices.empty()        ? Location::Kind::kEdge
                     : !view.sloops.empty()           ? Location::Kind::kFacet
                                                      : Location::Kind::kVolume;
-  return {kind, 0, map.mark};
+  return location_of_kind(kind, map.mark);
 }
 
 PyramidInTiles pyramid_in_tiles(const TileRef& tree, const Rational3& point, const Monitor& monitor) {
@@ -91,9 +99,9 @@ Location locate_in_tiles(const TileRef& tree, const Rational3& point, const Moni
   for_each_leaf_at(tree, Region{}, point, [&](const TileRef& leaf, const Region&) { leaves.push_back(leaf); });
   if (leaves.size() > 1) return pyramid_in_tiles(tree, point, monitor).location(monitor);
   const TileRef& only = leaves.front();
-  if (only.node->kind == Kind::kUniform) return {Location::Kind::kVolume, 0, only.node->mark};
+  if (only.node->kind == Kind::kUniform) return {ItemRef(kOuterVolume), only.node->mark};
   const Location there = locate(only.node->set(), point, monitor);
-  return {there.kind, 0, static_cast<LabelId>((there.mark != 0) != only.complemented ? 1 : 0)};
+  return location_of_kind(there.kind, (there.mark != 0) != only.complemented ? 1 : 0);
 }
 
 namespace {
@@ -143,8 +151,7 @@ Rational sum_of(std::vector<Rational> parts) {
 
 }  // namespace
 
-ExtentOfTiles extent_of_tiles(const TileRef& tree, bool with_volume, bool with_box, unsigned threads,
-                              const Monitor& monitor) {
+ExtentOfTiles extent_of_tiles(const TileRef& tree, bool with_volume, bool with_box, const Monitor& monitor) {
   std::vector<std::pair<TileRef, Region>> leaves;
   for_each_leaf(tree, Region{},
                 [&leaves](const TileRef& leaf, const Region& region) { leaves.emplace_back(leaf, region); });
@@ -156,7 +163,7 @@ ExtentOfTiles extent_of_tiles(const TileRef& tree, bool with_volume, bool with_b
     std::optional<Corners> box;
   };
   std::vector<Part> parts((leaves.size() + kChunk - 1) / kChunk);
-  parallel_for(parts.size(), threads, monitor, [&](std::size_t chunk, const Monitor& own) {
+  parallel_for(parts.size(), monitor, [&](std::size_t chunk, const Monitor& own) {
     own.check_interruption();
     Part& part = parts[chunk];
     for (std::size_t i = chunk * kChunk; i < std::min(leaves.size(), (chunk + 1) * kChunk); ++i) {

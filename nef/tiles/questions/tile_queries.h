@@ -28,8 +28,7 @@ struct ExtentOfTiles {
   std::optional<std::array<Rational3, 2>> box;
   bool bounded = true;  ///< no such vertex lies at infinity; else `box` means nothing
 };
-/// Looks at each tile once, on up to `threads` threads, each of which holds one at a time.
-ExtentOfTiles extent_of_tiles(const TileRef& tree, bool with_volume, bool with_box, unsigned threads,
-                              const Monitor& monitor);
+/// Looks at each tile once, on the threads of `monitor`, each of which holds one at a time.
+ExtentOfTiles extent_of_tiles(const TileRef& tree, bool with_volume, bool with_box, const Monitor& monitor);
 
 }  // namespace nef

@@ -30,19 +30,18 @@ namespace {
 
 class SeamGlue {
  public:
-  SeamGlue(const TileRef& tree, const Region& region, unsigned threads, const Monitor& monitor)
-      : threads_(threads), monitor_(monitor) {
+  SeamGlue(const TileRef& tree, const Region& region, const Monitor& monitor) : monitor_(monitor) {
     root_ = add(tree, region, Walls{});
   }
 
   // Fills what the functions below return.
   void run() {
     monitor_.check_interruption();
-    parallel_for(leaves_.size(), threads_, monitor_, [this](std::size_t i, const Monitor& own) {
+    parallel_for(leaves_.size(), monitor_, [this](std::size_t i, const Monitor& own) {
       leaves_[i].set = leaf_set(leaves_[i].tree, leaves_[i].region, own);
     });
     name_planes();
-    parallel_for_ranges(leaves_.size(), kTogether, threads_, monitor_,
+    parallel_for_ranges(leaves_.size(), kTogether, monitor_,
                         [this](std::size_t first, std::size_t last, const Monitor&) {
                           SeamReader reader;
                           for (std::size_t i = first; i < last; ++i) {
@@ -199,7 +198,7 @@ class SeamGlue {
     std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
     for_each_end([&](std::uint32_t spot, const End& end) { ends[next[spot]++] = end; });
     for (Leaf& leaf : leaves_) leaf.cut_edges = {};
-    parallel_for(spots_.size(), threads_, monitor_, [&](std::size_t spot, const Monitor&) {
+    parallel_for(spots_.size(), monitor_, [&](std::size_t spot, const Monitor&) {
       std::sort(ends.begin() + begin[spot], ends.begin() + begin[spot + 1U],
                 [](const End& a, const End& b) { return a.planes < b.planes; });
     });
@@ -263,7 +262,7 @@ class SeamGlue {
       leaf.edges = {};
     }
     std::vector<std::vector<PlaneTriple>> crossings(spots_.size());
-    parallel_for(spots_.size(), threads_, monitor_, [&](std::size_t spot, const Monitor& own) {
+    parallel_for(spots_.size(), monitor_, [&](std::size_t spot, const Monitor& own) {
       const PlaneId cut = spots_[spot].plane;
       if (!cut.valid()) return;
       crossings[spot] = wall_crossings(
@@ -319,7 +318,7 @@ class SeamGlue {
     constexpr std::uint32_t kChunk = 1024;
     std::vector<Complex> joined((count + kChunk - 1) / kChunk);
     monitor_.check_interruption();
-    parallel_for(joined.size(), threads_, monitor_, [&](std::size_t chunk, const Monitor& own) {
+    parallel_for(joined.size(), monitor_, [&](std::size_t chunk, const Monitor& own) {
       Joiner joiner(*this, own);
       const auto first = static_cast<std::uint32_t>(chunk * kChunk);
       for (std::uint32_t point = first; point < std::min(count, first + kChunk); ++point) {
@@ -417,18 +416,9 @@ class SeamGlue {
       const Leaf& leaf = glue_.leaves_[index];
       const Complex& c = leaf.set.complex();
       if (!vertex.valid()) {
-        const auto hit = leaf.set.queries().item_at(c, {&glue_.points_.table(), point}, monitor_);
-        NEF_ASSERT(hit.has_value());  // a wall if nothing else
-        if (hit->kind == ComplexHit::Kind::kVertex) {
-          out.assign(c.sphere_map(hit->vertex()));
-        } else if (hit->kind == ComplexHit::Kind::kEdge) {
-          const VertexId owner = c.source(hit->halfedge());
-          edge_pyramid(c.sphere_map(owner), c.halfedges(owner).position(hit->halfedge()), out);
-        } else {
-          const Facet& facet = c.facets[facet_of(hit->halffacet())];
-          out.assign_circle(facet.plane, facet.mark, c.volumes[facet.volume_above].mark,
-                            c.volumes[facet.volume_below].mark);
-        }
+        const ItemRef item = leaf.set.queries().item_at(c, {&glue_.points_.table(), point}, monitor_);
+        NEF_ASSERT(item.valid());  // a wall if nothing else
+        pyramid_of(c, item, out);
       } else {
         out.assign(c.sphere_map(vertex));
       }
@@ -448,7 +438,6 @@ class SeamGlue {
   static constexpr std::size_t kTogether = 32;             // leaves of a task
   static constexpr std::uint32_t kStraight = 0x80000000U;  // in the number of a point where an edge goes on
 
-  unsigned threads_;
   Monitor monitor_;
   std::vector<Spot> spots_;
   std::vector<Leaf> leaves_;
@@ -464,7 +453,7 @@ class SeamGlue {
 
 Polyhedron glue_tiles(const TileRef& tree, const Region& region, const Monitor& monitor) {
   if (tree.node->kind != TileNode::Kind::kCut) return leaf_set(tree, region, monitor);
-  SeamGlue glue(tree, region, 1, monitor);
+  SeamGlue glue(tree, region, monitor);
   glue.run();
   ComplexBuilder builder(glue.planes(), monitor);
   for (std::uint32_t i = 0; i < glue.leaf_count(); ++i) {
@@ -476,12 +465,11 @@ Polyhedron glue_tiles(const TileRef& tree, const Region& region, const Monitor& 
   return Polyhedron(builder.finish(kOutside));
 }
 
-Polyhedron glue_all_tiles(const TileRef& tree, unsigned threads, const Monitor& monitor) {
+Polyhedron glue_all_tiles(const TileRef& tree, const Monitor& monitor) {
   if (tree.node->kind != TileNode::Kind::kCut) return in_canonical_order(leaf_set(tree, Region{}, monitor), monitor);
-  SeamGlue glue(tree, Region{}, threads, monitor);
+  SeamGlue glue(tree, Region{}, monitor);
   glue.run();
-  return Polyhedron(
-      canonical_complex(std::move(glue.planes()), glue.parts(), glue.vertices(), kOutside, threads, monitor));
+  return Polyhedron(canonical_complex(std::move(glue.planes()), glue.parts(), glue.vertices(), kOutside, monitor));
 }
 
 }  // namespace nef

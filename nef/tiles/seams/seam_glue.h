@@ -10,8 +10,8 @@ namespace nef {
 /// Expected: n vertices of which those in seams that are none of cut edges cost an overlay on the sphere each.
 Polyhedron glue_tiles(const TileRef& tree, const Region& region, const Monitor& monitor);
 
-/// The same for all of space, in canonical order (nef/operation/canonical_order.h), on up to `threads` threads (0: as
-/// many as the machine has). Links inside of tiles are kept.
-Polyhedron glue_all_tiles(const TileRef& tree, unsigned threads, const Monitor& monitor);
+/// The same for all of space, in canonical order (nef/operation/canonical_order.h), on the threads of `monitor`.
+/// Links inside of tiles are kept.
+Polyhedron glue_all_tiles(const TileRef& tree, const Monitor& monitor);
 
 }  // namespace nef

@@ -254,14 +254,13 @@ bool names_tile_folder(const std::string& path) {
 
 void write_tiles(const std::string& folder, const TiledPolyhedron& set) { FolderWriter(folder).write(set); }
 
-TiledPolyhedron read_tiles(const std::string& folder, std::shared_ptr<TileStore> store, unsigned threads,
-                           const Monitor& monitor) {
-  return FolderReader(folder, {.threads = threads, .store = std::move(store)}, monitor).read();
+TiledPolyhedron read_tiles(const std::string& folder, std::shared_ptr<TileStore> store, const Monitor& monitor) {
+  return FolderReader(folder, {.store = std::move(store)}, monitor).read();
 }
 
 Polyhedron read_file_or_tiles(const std::string& path, const MeshOptions& options, Messages* messages) {
   if (!names_tile_folder(path)) return read_polyhedron(path, options, messages);
-  return read_tiles(path, nullptr, 1, options.monitor).polyhedron(options.monitor);
+  return read_tiles(path, nullptr, options.monitor).polyhedron(options.monitor);
 }
 
 }  // namespace nef

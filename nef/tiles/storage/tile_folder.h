@@ -37,10 +37,10 @@ bool names_tile_folder(const std::string& path);
 /// unless the set's store uses them. Tiles are loaded one at a time. Throws FileError.
 void write_tiles(const std::string& folder, const TiledPolyhedron& set);
 
-/// Reads a set from a folder; operations on it use the limit of the folder, the store and the threads. With a store,
+/// Reads a set from a folder; operations on it use the limit of the folder and the store. With a store,
 /// tiles are read when they are needed; without, all at once. Throws FileError for what is damaged, and so does any
 /// operation that needs a damaged tile. That the tiles fit together is taken on trust.
-TiledPolyhedron read_tiles(const std::string& folder, std::shared_ptr<TileStore> store = nullptr, unsigned threads = 1,
+TiledPolyhedron read_tiles(const std::string& folder, std::shared_ptr<TileStore> store = nullptr,
                            const Monitor& monitor = {});
 
 /// A set from a file of any kind (nef/io/polyhedron_file.h) or from a folder of tiles, which it glues.

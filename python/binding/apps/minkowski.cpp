@@ -7,6 +7,11 @@
 
 #include <pybind11/stl.h>
 
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "apps/minkowski/morphology.h"
 
 #include "binding/base/bindings.h"
@@ -16,26 +21,75 @@
 namespace nef::python {
 namespace {
 
-minkowski::MinkowskiOptions options_of(unsigned threads, const ProgressFunction& progress, const Monitor& monitor) {
+// What all functions that take sums are told beside their operands.
+struct HowToSum {
+  unsigned threads = 1;
+  py::object progress;
+  std::string strategy;
+  py::object report;
+};
+
+minkowski::UnionStrategy strategy_named(const std::string& name) {
+  for (const auto& [known, strategy] : minkowski::kUnionStrategies) {
+    if (name == known) return strategy;
+  }
+  throw py::value_error("union must be 'auto', 'convolution' or 'queue'");
+}
+
+// The keys are those of the program's report.
+void fill(const py::object& report, const minkowski::MinkowskiReport& counts) {
+  if (report.is_none()) return;
+  py::dict found = report;
+  py::list strategies;
+  for (const minkowski::StrategyChoice& choice : counts.choices) {
+    py::dict entry;
+    entry["chosen"] = choice.chosen;
+    entry["why"] = choice.why;
+    strategies.append(entry);
+  }
+  found["strategies"] = strategies;
+  found["cells"] = py::make_tuple(counts.cells_a, counts.cells_b);
+  found["pairs"] = counts.pairs;
+  py::dict convolution;
+  convolution["facets"] = counts.convolution_facets;
+  convolution["intervals"] = counts.convolution_intervals;
+  convolution["points"] = counts.convolution_points;
+  convolution["regions_tested"] = counts.convolution_regions;
+  found["convolution"] = convolution;
+  found["seconds"] = counts.seconds_total;
+}
+
+// compute(options, report) without Python's lock. Each cell of one operand may be combined with each of the other, so
+// small ones may take long.
+template <typename Compute>
+auto with_sums(const HowToSum& how, Compute&& compute) {
+  if (!how.report.is_none() && !py::isinstance<py::dict>(how.report))
+    throw py::type_error("report must be a dict or None");
+  const ProgressFunction told(how.progress);
   minkowski::MinkowskiOptions options;
-  options.threads = threads;
-  options.progress = [progress, monitor](std::size_t done, std::size_t total) {
-    progress(monitor, done, total);
-    return true;
-  };
-  options.monitor = monitor;
-  return options;
+  options.strategy = strategy_named(how.strategy);
+  const auto counts = std::make_shared<minkowski::MinkowskiReport>();
+  auto result = call(kSmallCall, [=, threads = how.threads](const Monitor& monitor) {
+    minkowski::MinkowskiOptions with_monitor = options;
+    with_monitor.progress = [told, monitor](std::size_t done, std::size_t total) {
+      told(monitor, done, total);
+      return true;
+    };
+    with_monitor.monitor = monitor.on_threads(threads);
+    return compute(with_monitor, counts.get());
+  });
+  fill(how.report, *counts);
+  return result;
 }
 
 using Binary = Polyhedron (*)(const Polyhedron&, const Polyhedron&, const minkowski::MinkowskiOptions&,
                               minkowski::MinkowskiReport*);
 
-// Each cell of one operand is combined with each of the other, so small ones may take long.
 auto binary(Binary operation) {
-  return [operation](const Polyhedron& a, const Polyhedron& b, unsigned threads, const py::object& progress) {
-    const ProgressFunction told(progress);
-    return call(kSmallCall,
-                [=](const Monitor& monitor) { return operation(a, b, options_of(threads, told, monitor), nullptr); });
+  return [operation](const Polyhedron& a, const Polyhedron& b, unsigned threads, const py::object& progress,
+                     const std::string& strategy, const py::object& report) {
+    return with_sums({threads, progress, strategy, report},
+                     [=](const auto& options, auto* counts) { return operation(a, b, options, counts); });
   };
 }
 
@@ -46,12 +100,11 @@ minkowski::Side side_of(const std::string& name) {
 }
 
 Polyhedron offset(const Polyhedron& a, py::handle radius, int detail, const std::string& side, unsigned threads,
-                  const py::object& progress) {
+                  const py::object& progress, const std::string& strategy, const py::object& report) {
   const Rational r = to_rational(radius);
   const minkowski::Side kind = side_of(side);
-  const ProgressFunction told(progress);
-  return call(kSmallCall, [=](const Monitor& monitor) {
-    return minkowski::offset(a, r, detail, kind, options_of(threads, told, monitor));
+  return with_sums({threads, progress, strategy, report}, [=](const auto& options, auto* counts) {
+    return minkowski::offset(a, r, detail, kind, options, counts);
   });
 }
 
@@ -64,44 +117,53 @@ py::object ball_error(py::handle radius, int detail, const std::string& side) {
 }
 
 Polyhedron configuration_space(const Polyhedron& robot, const std::vector<Polyhedron>& obstacles, const py::object& box,
-                               unsigned threads, const py::object& progress) {
+                               unsigned threads, const py::object& progress, const std::string& strategy,
+                               const py::object& report) {
   std::optional<std::array<Rational3, 2>> bounds;
   if (!box.is_none()) {
     const py::sequence corners = box;
     if (corners.size() != 2) throw py::value_error("a box needs two corners");
     bounds = {to_triple(corners[0], "a corner"), to_triple(corners[1], "a corner")};
   }
-  const ProgressFunction told(progress);
-  return call(kSmallCall, [=](const Monitor& monitor) {
-    return minkowski::configuration_space(robot, obstacles, bounds, options_of(threads, told, monitor));
+  return with_sums({threads, progress, strategy, report}, [=](const auto& options, auto* counts) {
+    return minkowski::configuration_space(robot, obstacles, bounds, options, counts);
   });
 }
 
-Polyhedron sweep(const Polyhedron& a, py::handle path, unsigned threads, const py::object& progress) {
+Polyhedron sweep(const Polyhedron& a, py::handle path, unsigned threads, const py::object& progress,
+                 const std::string& strategy, const py::object& report) {
   const std::vector<Rational3> points = to_points(path, "a path");
-  const ProgressFunction told(progress);
-  return call(kSmallCall,
-              [=](const Monitor& monitor) { return minkowski::sweep(a, points, options_of(threads, told, monitor)); });
+  return with_sums({threads, progress, strategy, report},
+                   [=](const auto& options, auto* counts) { return minkowski::sweep(a, points, options, counts); });
 }
 
-py::object penetration(const Polyhedron& a, const Polyhedron& b, unsigned threads, const py::object& progress) {
-  const ProgressFunction told(progress);
-  const minkowski::Penetration found = call(kSmallCall, [=](const Monitor& monitor) {
-    return minkowski::penetration(a, b, options_of(threads, told, monitor));
-  });
+py::object penetration(const Polyhedron& a, const Polyhedron& b, unsigned threads, const py::object& progress,
+                       const std::string& strategy, const py::object& report) {
+  const minkowski::Penetration found =
+      with_sums({threads, progress, strategy, report},
+                [=](const auto& options, auto* counts) { return minkowski::penetration(a, b, options, counts); });
   return result_of("Penetration", py::make_tuple(contact_name(found.kind), from_triple(found.translation),
                                                  to_fraction(found.squared_length)));
 }
 
 py::object reach(const Polyhedron& tool, const Polyhedron& part, const py::object& start, unsigned threads,
-                 const py::object& progress) {
+                 const py::object& progress, const std::string& strategy, const py::object& report) {
   std::optional<Rational3> from;
   if (!start.is_none()) from = to_triple(start, "a start");
-  const ProgressFunction told(progress);
-  const minkowski::Reach found = call(kSmallCall, [=](const Monitor& monitor) {
-    return minkowski::reach(tool, part, from, options_of(threads, told, monitor));
-  });
+  const minkowski::Reach found =
+      with_sums({threads, progress, strategy, report},
+                [=](const auto& options, auto* counts) { return minkowski::reach(tool, part, from, options, counts); });
   return result_of("Reach", py::make_tuple(found.positions, found.touched, found.untouched));
+}
+
+py::object millable(const Polyhedron& part, const Polyhedron& tool, std::optional<int> axes, unsigned threads,
+                    const py::object& progress, const std::string& strategy, const py::object& report) {
+  if (axes && *axes != 3) throw py::value_error("axes must be 3, for a tool that comes from above, or None");
+  const auto approach = axes ? minkowski::Approach::kFromAbove : minkowski::Approach::kAnywhere;
+  const minkowski::Millable found = with_sums(
+      {threads, progress, strategy, report},
+      [=](const auto& options, auto* counts) { return minkowski::millable(part, tool, approach, options, counts); });
+  return result_of("Millable", py::make_tuple(found.shape, found.unreached));
 }
 
 Polyhedron component(const Polyhedron& a, const py::object& point) {
@@ -126,33 +188,35 @@ void define_module(py::module_& m) {
   py::module_::import("nef._nef");
   const auto bind = [&m](const char* name, Binary operation, const char* text) {
     m.def(name, binary(operation), py::arg("a"), py::arg("b"), py::arg("threads") = 1, py::arg("progress") = py::none(),
-          text);
+          py::arg("union") = "auto", py::arg("report") = py::none(), text);
   };
   bind("sum", nef::minkowski::minkowski_sum,
        R"(The Minkowski sum { x + y : x in a, y in b } of any two sets, exactly.
 
 Open and closed parts, lower-dimensional parts and cavities count; empty if one is empty. threads: 0 for as many as the
-machine has; the result does not depend on it. progress: a function that is called with (pairs of cells done, pairs in
-all). Raises UnsupportedError for unbounded operands with too many reflex edges.)");
+machine has; the result does not depend on it. progress: a function that is called with (thousandths of the work done, 1000).
+union: how sums are made, 'convolution' (without cells), 'queue' (of sums of cells) or 'auto'; the set is the same. report: a
+dict that receives what was chosen and why ('strategies'), and counts, as in the report of the program `minkowski`. Raises UnsupportedError for unbounded operands with too many reflex edges.)");
   bind("erode", nef::minkowski::erode,
        R"(The Minkowski difference: the points x for which b, moved by x, lies in a; exactly.
 
-All of space if b is empty. threads, progress, errors: as for sum.)");
+All of space if b is empty. threads, progress, union, report, errors: as for sum.)");
   bind("opening", nef::minkowski::opening,
        R"(a eroded by b, plus b: the union of all translates of b that lie in a.
 
-threads, progress, errors: as for sum; progress begins anew with the second sum. Raises InputError if b is empty.)");
+threads, progress, union, report, errors: as for sum; progress begins anew with the second sum. Raises InputError if b is empty.)");
   bind("closing", nef::minkowski::closing,
        R"(a plus b, eroded by b: what no translate of -b reaches that misses a.
 
-threads, progress, errors: as for opening.)");
+threads, progress, union, report, errors: as for opening.)");
   m.def("offset", &offset, py::arg("a"), py::arg("radius"), py::arg("detail") = 8, py::arg("side") = "outer",
-        py::arg("threads") = 1, py::arg("progress") = py::none(),
+        py::arg("threads") = 1, py::arg("progress") = py::none(), py::arg("union") = "auto",
+        py::arg("report") = py::none(),
         R"(The set grown by a ball of the radius, a number; shrunk for a negative one.
 
 The round ball is replaced by a polyhedron, so that the result lies around what the round one would give (side='outer') or
 inside of it ('inner'), and is exact for a ball whose radius is off by at most ball_error(abs(radius), detail, s), where s is
-`side`, or the other one for a negative radius. detail: from 1 to 64, see ball. threads, progress, errors: as for sum.)");
+`side`, or the other one for a negative radius. detail: from 1 to 64, see ball. threads, progress, union, report, errors: as for sum.)");
   m.def("ball", &ball, py::arg("radius"), py::arg("detail") = 8, py::arg("side") = "inner",
         R"(A polyhedral ball about the origin: an octahedron whose edges are split into `detail` parts, from 1 to 64.
 
@@ -161,28 +225,36 @@ Raises InputError unless the radius, a number, is positive.)");
   m.def("ball_error", &ball_error, py::arg("radius"), py::arg("detail") = 8, py::arg("side") = "inner",
         "A bound on how far the surfaces of ball(radius, detail, side) and of the round ball are apart: a Fraction.");
   m.def("sweep", &sweep, py::arg("a"), py::arg("path"), py::arg("threads") = 1, py::arg("progress") = py::none(),
+        py::arg("union") = "auto", py::arg("report") = py::none(),
         R"(What a set passes over as it moves along a polyline of at least one point, in the order of its points.
 
-path: points in rows. threads, progress, errors: as for sum.)");
+path: points in rows. threads, progress, union, report, errors: as for sum.)");
   m.def(
       "penetration", &penetration, py::arg("a"), py::arg("b"), py::arg("threads") = 1, py::arg("progress") = py::none(),
+      py::arg("union") = "auto", py::arg("report") = py::none(),
       R"(How two bounded sets stand to each other, and the shortest translation of b that makes them touch: nef.Penetration.
 
-The way out if they overlap, to contact if they are disjoint; closures and interiors decide. Exact. threads, progress: as for
+The way out if they overlap, to contact if they are disjoint; closures and interiors decide. Exact. threads, progress, union, report: as for
 sum. Raises InputError if one is empty, UnsupportedError if one is unbounded.)");
   bind(
       "no_fit", nef::minkowski::no_fit_set,
       R"(All translations of b for which a and b touch without overlap: facets, edges and points, slots that b fits exactly
 among them.
 
-threads, progress, errors: as for sum.)");
+threads, progress, union, report, errors: as for sum.)");
   m.def(
       "reach", &reach, py::arg("tool"), py::arg("part"), py::arg("start") = py::none(), py::arg("threads") = 1,
-      py::arg("progress") = py::none(),
+      py::arg("progress") = py::none(), py::arg("union") = "auto", py::arg("report") = py::none(),
       R"(Where a translating tool can go outside of a part, from infinity or from `start`, and what it touches: nef.Reach.
 
-Contact is free, and so are passages as wide as the tool. Both sets must be bounded (UnsupportedError). threads, progress: as
+Contact is free, and so are passages as wide as the tool. Both sets must be bounded (UnsupportedError). threads, progress, union, report: as
 for sum. Raises InputError if the tool is empty or the start is not free.)");
+  m.def("millable", &millable, py::arg("part"), py::arg("tool"), py::arg("axes") = py::none(), py::arg("threads") = 1,
+        py::arg("progress") = py::none(), py::arg("union") = "auto", py::arg("report") = py::none(),
+        R"(What a tool that moves without turning leaves of a block around a part that it must not cut: nef.Millable.
+
+It comes from outside along any path; axes=3: down the z axis, so what is above it must be free, too. Both sets must be
+bounded (UnsupportedError). threads, progress, union, report: as for sum. Raises InputError if the tool has no volume.)");
   m.def("component", &component, py::arg("a"), py::arg("point") = py::none(),
         R"(The connected component of a set that holds a point, empty if the set does not hold it.
 
@@ -196,6 +268,7 @@ Without a point: what reaches infinity. Connected means by paths within the set,
       R"(The convex hull of a set, open where the set is: the hull of an open set is open. nef.hull takes points.)");
   m.def("configuration_space", &configuration_space, py::arg("robot"), py::arg("obstacles"),
         py::arg("box") = py::none(), py::arg("threads") = 1, py::arg("progress") = py::none(),
+        py::arg("union") = "auto", py::arg("report") = py::none(),
         R"(Where a translating robot may be: the closed set of positions of its reference point, the origin.
 
 robot: a Polyhedron; obstacles: a list of these, taken closed; box: two corners that bound the positions, or None. Contact

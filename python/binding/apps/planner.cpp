@@ -6,9 +6,12 @@
 
 #include "apps/planner/clearance/keep_clear.h"
 #include "apps/planner/path/question.h"
+#include "apps/planner/rigid/certified_path.h"
+#include "apps/planner/rigid/pose_file.h"
 #include "apps/planner/scene/scene.h"
 #include "apps/planner/turning/turning_search.h"
 #include "binding/base/bindings.h"
+#include "binding/base/mesh_options.h"
 #include "nef/base/timing/stopwatch.h"
 
 namespace nef::python {
@@ -63,25 +66,15 @@ py::object invalid_end(const plan::Scene& scene, py::handle start, py::handle go
       call(kSmallCall, [=](const Monitor& monitor) { return plan::Problem::invalid_end(scene, from, to, monitor); });
   if (!answer) return py::none();
   py::dict result;
-  result["status"] = answer->status == plan::Answer::Status::kInvalidStart ? "invalid_start" : "invalid_goal";
+  result["status"] = plan::status_name(answer->status);
   result["collision"] = plan::describe(*answer->collision, scene);
   return result;
 }
 
-const char* status_text(plan::TurningAnswer::Status status) {
-  switch (status) {
-    case plan::TurningAnswer::Status::kPath:
-      return "path";
-    case plan::TurningAnswer::Status::kInfeasible:
-      return "infeasible";
-    case plan::TurningAnswer::Status::kInvalidStart:
-      return "invalid_start";
-    case plan::TurningAnswer::Status::kInvalidGoal:
-      return "invalid_goal";
-    case plan::TurningAnswer::Status::kUndecided:
-      break;
-  }
-  return "undecided";
+// A function that says true after so many seconds; an empty one for None.
+std::function<bool()> stop_after(const py::object& seconds) {
+  if (seconds.is_none()) return {};
+  return [watch = Stopwatch(), most = seconds.cast<double>()] { return watch.seconds() >= most; };
 }
 
 // A proof about a robot that turns, with what it is about.
@@ -105,16 +98,14 @@ py::dict solve_turning(const plan::Scene& scene, std::size_t max_cells, const py
   plan::TurningLimits limits;
   limits.max_cells = max_cells;
   if (!digits.is_none()) limits.digits = digits.cast<unsigned>();
-  if (!seconds.is_none()) {
-    limits.stop = [watch = Stopwatch(), most = seconds.cast<double>()] { return watch.seconds() >= most; };
-  }
+  limits.stop = stop_after(seconds);
   const plan::TurningQuestion question = plan::question_of(scene);
   plan::TurningAnswer answer = call(kSmallCall, [=](const Monitor& monitor) mutable {
     limits.monitor = monitor;
     return plan::find_turning_path(scene, question, limits);
   });
   py::dict result;
-  result["status"] = status_text(answer.status);
+  result["status"] = plan::status_name(answer.status);
   py::list points;
   py::list turns;
   py::list degrees;
@@ -168,27 +159,101 @@ plan::Scene kept_clear(const plan::Scene& scene, py::handle distance) {
   });
 }
 
+py::tuple told(const plan::RigidPose& pose) {
+  py::list quaternion;
+  for (const Rational& x : pose.quaternion) quaternion.append(to_fraction(x));
+  return py::make_tuple(from_triple(pose.position), py::tuple(quaternion));
+}
+
+// The number of a motion, and the parameter and the pose at which it collides.
+py::object collision_of(const plan::CertifiedPath& path) {
+  if (!path.blocked) return py::none();
+  const plan::MotionVerdict& verdict = path.motions[*path.blocked];
+  return py::make_tuple(*path.blocked, verdict.parameter, told(*verdict.pose));
+}
+
+// The poses in a file (planner --path); None if no pose is turned.
+py::object read_poses(const std::string& path) {
+  const std::optional<std::vector<plan::RigidPose>> poses =
+      call(kSmallCall, [path](const Monitor&) { return plan::read_poses(path); });
+  if (!poses) return py::none();
+  py::list result;
+  for (const plan::RigidPose& pose : *poses) result.append(told(pose));
+  return result;
+}
+
+// (status, collision, undecided motions, touching motions) of a path of ((x, y, z), (w, x, y, z)).
+py::tuple certify(const plan::Scene& scene, const py::sequence& path) {
+  std::vector<plan::RigidPose> poses;
+  for (const py::handle item : path) {
+    const auto pair = item.cast<py::sequence>();
+    if (pair.size() != 2) throw py::value_error("a pose is a position and a quaternion");
+    const py::sequence quaternion = pair[1];
+    if (quaternion.size() != 4) throw py::value_error("a quaternion has four numbers: w, x, y, z");
+    plan::RigidPose& pose = poses.emplace_back();
+    pose.position = to_triple(pair[0], "a position");
+    for (std::size_t k = 0; k < 4; ++k) pose.quaternion[k] = to_rational(quaternion[k]);
+  }
+  if (poses.empty()) throw py::value_error("a path needs a pose");
+  const plan::CertifiedPath found = call(kSmallCall, [scene, poses](const Monitor& monitor) {
+    const auto checker = plan::MotionChecker::of_scene(plan::with_robot_as_in_its_file(scene, monitor), monitor);
+    return plan::certify(checker, poses);
+  });
+  using Status = plan::MotionVerdict::Status;
+  py::list undecided;
+  py::list touching;
+  for (std::size_t i = 0; i < found.motions.size(); ++i) {
+    if (found.motions[i].status == Status::kUndecided) undecided.append(i);
+    if (found.motions[i].status == Status::kFree && found.motions[i].touches) touching.append(i);
+  }
+  const char* status = found.status == Status::kFree       ? "path"
+                       : found.status == Status::kCollides ? "blocked"
+                                                           : "undecided";
+  return py::make_tuple(status, collision_of(found), undecided, touching);
+}
+
 // A problem whose free space is computed.
 class Space {
  public:
-  Space(plan::Scene scene, unsigned threads, const py::object& progress) {
+  // Not built if it takes longer than so many seconds, unless they are None.
+  Space(plan::Scene scene, unsigned threads, const py::object& progress, const py::object& seconds) {
     const ProgressFunction told(progress);
-    problem_ = call(kSmallCall, [scene = std::move(scene), threads, told](const Monitor& monitor) {
+    const std::function<bool()> stop = stop_after(seconds);
+    problem_ = call(kSmallCall, [scene = std::move(scene), threads, told, stop](const Monitor& monitor) {
       plan::BuildOptions options;
-      options.threads = threads;
+      options.stop = stop;
       options.progress = [&](const std::string& phase, std::size_t done, std::size_t total) {
         told(monitor, phase, done, total);
       };
-      options.monitor = monitor;
-      return std::make_shared<const plan::Problem>(scene, options);
+      options.monitor = monitor.on_threads(threads);
+      try {
+        return std::make_shared<const plan::Problem>(scene, options);
+      } catch (const Interrupted&) {
+        monitor.check_interruption();
+        return std::shared_ptr<const plan::Problem>();
+      }
     });
   }
 
-  py::dict solve(py::handle start, py::handle goal, const plan::PathOptions& options) const {
+  [[nodiscard]] bool built() const { return problem_ != nullptr; }
+
+  // `seconds` may be None.
+  py::dict solve(py::handle start, py::handle goal, const plan::PathOptions& options, const py::object& seconds) const {
     const Rational3 from = to_triple(start, "a start");
     const Rational3 to = to_triple(goal, "a goal");
     const auto problem = problem_;
-    return told(call(kSmallCall, [=](const Monitor& monitor) { return problem->solve(from, to, options, monitor); }));
+    const std::function<bool()> stop = stop_after(seconds);
+    return told(call(kSmallCall, [=](const Monitor& monitor) {
+      const StopQuestion question(stop, monitor);
+      try {
+        return problem->solve(from, to, options, question.monitor());
+      } catch (const Interrupted&) {
+        monitor.check_interruption();
+        plan::Answer answer;
+        answer.status = plan::Answer::Status::kUndecided;
+        return answer;
+      }
+    }));
   }
 
   py::dict check(py::handle points) const {
@@ -247,26 +312,8 @@ class Space {
     if (answer.status == plan::Answer::Status::kInfeasible) {
       result["components"] = py::make_tuple(answer.start_component, answer.goal_component);
     }
-    result["status"] = status_text(answer.status);
+    result["status"] = plan::status_name(answer.status);
     return result;
-  }
-
-  static const char* status_text(plan::Answer::Status status) {
-    switch (status) {
-      case plan::Answer::Status::kPath:
-        return "path";
-      case plan::Answer::Status::kInfeasible:
-        return "infeasible";
-      case plan::Answer::Status::kInvalidStart:
-        return "invalid_start";
-      case plan::Answer::Status::kInvalidGoal:
-        return "invalid_goal";
-      case plan::Answer::Status::kBlocked:
-        return "blocked";
-      case plan::Answer::Status::kNoQuestion:
-        break;
-    }
-    return "free_space";
   }
 
   std::shared_ptr<const plan::Problem> problem_;
@@ -304,17 +351,24 @@ void define_module(py::module_& m) {
       .def("with_ends", &with_ends)
       .def("kept_clear", &kept_clear)
       .def("invalid_end", &invalid_end)
+      .def("certify", &certify)
       .def_property_readonly("start", [](const plan::Scene& s) { return optional_triple(s.start); })
       .def_property_readonly("goal", [](const plan::Scene& s) { return optional_triple(s.goal); });
-  m.def("read", [](const std::string& path) {
-    return call(kSmallCall, [path](const Monitor& monitor) { return plan::read_scene(path, monitor); });
+  m.def("read", [](const std::string& path, const std::string& crossings, double close) {
+    MeshOptions meshes = mesh_options(crossings, close);
+    return call(kSmallCall, [=](const Monitor& monitor) mutable {
+      meshes.monitor = monitor;
+      return plan::read_scene(path, meshes);
+    });
   });
   py::class_<TurningProofOfScene>(m, "TurningProof")
       .def("complaint", &TurningProofOfScene::complaint)
       .def_property_readonly("cells", &TurningProofOfScene::cells);
+  m.def("read_poses", &read_poses);
   m.def("solve_turning", &solve_turning);
   py::class_<Space>(m, "Space")
-      .def(py::init<plan::Scene, unsigned, const py::object&>())
+      .def(py::init<plan::Scene, unsigned, const py::object&, const py::object&>())
+      .def_property_readonly("built", &Space::built)
       .def("solve", &Space::solve)
       .def("check", &Space::check)
       .def("free", &Space::free)

@@ -1,17 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The extension module nef._visual_hull.
+// The extension module nef._visual_hull: arguments of Python become scenes, masks and options of the library, its
+// calls run without the interpreter's lock, and results go back as plain tuples and dicts, which nef/visual_hull.py
+// gives names.
 #include "apps/visual_hull/visual_hull.h"
 
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <filesystem>
 
+#include "apps/view/image.h"
 #include "apps/visual_hull/formats/read_scene.h"
+#include "apps/visual_hull/masks/cut_out.h"
 #include "apps/visual_hull/scene/images.h"
 #include "binding/base/bindings.h"
 #include "nef/io/file_bytes.h"
-#include "nef/view/image.h"
 
 namespace nef::python {
 namespace {
@@ -50,7 +54,7 @@ visual_hull::Options options_of(double tolerance, bool half_pixels, bool unknown
   if (half_pixels) options.origin = visual_hull::PixelOrigin::kCorner;
   options.silhouette.border = unknown_beyond ? visual_hull::Border::kUnknown : visual_hull::Border::kOutside;
   options.verify = verify;
-  options.threads = threads;
+  options.monitor = Monitor().on_threads(threads);
   if (!box.is_none()) {
     const py::sequence corners = box;
     if (corners.size() != 2) throw py::value_error("a box needs two corners");
@@ -84,7 +88,7 @@ py::dict compute(const visual_hull::Scene& scene, const std::string& folder, con
       told(monitor, std::string(visual_hull::phase_name(phase)), name, done, total);
     };
     visual_hull::Options watched = options;
-    watched.monitor = monitor;
+    watched.monitor = monitor.on_threads(options.monitor.threads());
     return visual_hull::compute(scene, folder, watched, forward);
   });
   py::dict result;
@@ -117,6 +121,98 @@ py::dict from_views(const std::vector<std::string>& names, const std::vector<std
   return compute(scene, folder, options, progress);
 }
 
+cv::Mat mask_of(const Mask& mask) {
+  if (mask.ndim() != 2 || mask.size() == 0) throw py::value_error("a mask is an array of shape (H, W)");
+  cv::Mat result(static_cast<int>(mask.shape(0)), static_cast<int>(mask.shape(1)), CV_8UC1);
+  std::copy(mask.data(), mask.data() + mask.size(), result.begin<std::uint8_t>());
+  return result;
+}
+
+py::list doubles_of(const visual_hull::Camera& camera) {
+  py::list rows;
+  for (const auto& row : camera.matrix()) {
+    py::list entries;
+    for (const Rational& entry : row) entries.append(nearest_double(entry));
+    rows.append(entries);
+  }
+  return rows;
+}
+
+py::dict refinement_dict(const visual_hull::refine::Refinement& r) {
+  py::dict result;
+  result["accepted"] = r.accepted;
+  result["model"] = visual_hull::refine::model_name(r.model);
+  result["residual"] = py::make_tuple(r.before.mean, r.after.mean);
+  result["held_out"] = py::make_tuple(r.held_out_before.mean, r.held_out_after.mean);
+  result["focal"] = r.focal;
+  result["undetermined"] = r.undetermined;
+  py::list views;
+  py::list cameras;
+  for (const visual_hull::refine::RefinedView& view : r.views) {
+    using visual_hull::refine::Fault;
+    const py::object fault = view.fault == Fault::kNone
+                                 ? py::object(py::none())
+                                 : py::object(py::str(view.fault == Fault::kMask ? "mask" : "camera"));
+    views.append(py::make_tuple(view.name, view.moved_px, view.turned_degrees, view.residual_before,
+                                view.residual_after, fault));
+    cameras.append(doubles_of(view.camera));
+  }
+  result["views"] = views;
+  result["cameras"] = cameras;
+  return result;
+}
+
+// Without matrices the cameras are those of a turntable, to be found.
+py::dict refine(const std::vector<std::string>& names, const std::vector<Mask>& masks, const py::object& matrices,
+                bool half_pixels, unsigned threads) {
+  std::vector<cv::Mat> images;
+  std::vector<visual_hull::Camera> cameras;
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    images.push_back(mask_of(masks[i]));
+    if (matrices.is_none()) {
+      if (images[i].size() != images[0].size()) throw py::value_error("masks of a turntable have one shape");
+      cameras.emplace_back();
+    } else {
+      cameras.emplace_back(names[i], matrix_of(py::list(matrices)[i]));
+    }
+  }
+  const bool found = matrices.is_none();
+  const visual_hull::refine::Refinement made = call(kSmallCall, [=](const Monitor& monitor) {
+    visual_hull::SilhouetteOptions silhouettes;
+    if (half_pixels) silhouettes.origin = visual_hull::PixelOrigin::kCorner;
+    std::vector<visual_hull::ViewSilhouette> seen;
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      seen.push_back(visual_hull::silhouette_of_mask(images[i], {}, names[i], silhouettes, monitor));
+    }
+    std::vector<visual_hull::refine::GivenView> views;
+    for (std::size_t i = 0; i < images.size(); ++i) {
+      const visual_hull::ImageSize size{images[i].cols, images[i].rows};
+      views.push_back(
+          {names[i], cameras[i], &seen[i].region, seen[i].cut_by_frame ? size : visual_hull::ImageSize{}, {}});
+    }
+    visual_hull::refine::RefineOptions options{silhouettes.origin, {}};
+    if (found && !images.empty()) options.turntable = visual_hull::ImageSize{images[0].cols, images[0].rows};
+    return visual_hull::refine::refine_cameras(views, options, monitor.on_threads(threads));
+  });
+  return refinement_dict(made);
+}
+
+// (masks, qualities, what was chosen, notes)
+py::tuple masks(const std::vector<std::string>& photographs, const std::string& method, unsigned threads) {
+  const visual_hull::CutOuts made = call(kSmallCall, [=](const Monitor& monitor) {
+    const std::vector<std::filesystem::path> files(photographs.begin(), photographs.end());
+    return visual_hull::cut_out(files, visual_hull::parse_mask_method(method), monitor.on_threads(threads));
+  });
+  py::list arrays;
+  for (const cv::Mat& mask : made.masks) {
+    py::array_t<bool> array({mask.rows, mask.cols});
+    std::transform(mask.begin<std::uint8_t>(), mask.end<std::uint8_t>(), array.mutable_data(),
+                   [](std::uint8_t pixel) { return pixel != 0; });
+    arrays.append(array);
+  }
+  return py::make_tuple(arrays, made.quality, made.chosen, made.notes);
+}
+
 void define_module(py::module_& m) {
   m.doc() = "The core of the package nef.visual_hull; see there.";
   py::module_::import("nef._nef");
@@ -124,6 +220,8 @@ void define_module(py::module_& m) {
   m.def("write_mask", &write_mask);
   m.def("from_file", &from_file);
   m.def("from_views", &from_views);
+  m.def("refine", &refine);
+  m.def("masks", &masks);
 }
 
 }  // namespace

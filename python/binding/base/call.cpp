@@ -15,12 +15,13 @@ void wait_at_exit() {
 }  // namespace
 
 bool in_main_thread() {
-  return outliving_python([] {
-    wait_at_exit();
-    // The main thread never changes while the interpreter lives (after a fork it is the one that forked).
-    const py::module_ threading = py::module_::import("threading");
-    return PyThread_get_thread_ident() == py::cast<unsigned long>(threading.attr("main_thread")().attr("ident"));
-  });
+  wait_at_exit();
+  // The main thread never changes while the interpreter lives (after a fork it is the one that forked).
+  const py::object threading = owned(outliving_python([] { return PyImport_ImportModule("threading"); }));
+  const py::object main =
+      owned(outliving_python([&] { return PyObject_CallMethod(threading.ptr(), "main_thread", nullptr); }));
+  const py::object ident = owned(outliving_python([&] { return PyObject_GetAttrString(main.ptr(), "ident"); }));
+  return PyThread_get_thread_ident() == py::cast<unsigned long>(ident);
 }
 
 std::atomic<int>& abandoned_calls() {
@@ -40,7 +41,9 @@ ProgressFunction::ProgressFunction(const py::object& function) {
   if (PyCallable_Check(function.ptr()) == 0) throw py::type_error("progress must be a function or None");
   function_ = std::shared_ptr<py::object>(new py::object(function), [](py::object* held) {
     const LockHeld locked;
+    PyObject* const last = held->release().ptr();
     delete held;
+    outliving_python([last] { Py_DECREF(last); });  // may run a __del__
   });
 }
 

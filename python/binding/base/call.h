@@ -60,7 +60,8 @@ class ProgressFunction {
     monitor.check_interruption();
     if (!function_) return;
     const LockHeld locked;
-    outliving_python([&] { (*function_)(arguments...); });
+    const py::tuple given = py::make_tuple(arguments...);
+    owned(outliving_python([&] { return PyObject_Call(function_->ptr(), given.ptr(), nullptr); }));
   }
 
  private:

@@ -4,7 +4,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
-#include "nef/program/expression/expression.h"
+#include "apps/program/expression/expression.h"
 
 namespace nef::python {
 

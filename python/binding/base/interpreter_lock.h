@@ -14,7 +14,11 @@
 
 namespace nef::python {
 
-/// Calls a function in which Python may end the thread; the thread waits for the end of the process instead.
+namespace py = pybind11;
+
+/// Calls a function in which Python may end the thread; the thread waits for the end of the process instead. Nothing of
+/// C++ that holds Python objects may be inside, as it would be unwound before: call Python's C functions, one at a
+/// time.
 template <typename Function>
 decltype(auto) outliving_python(const Function& function) {
   try {
@@ -22,6 +26,13 @@ decltype(auto) outliving_python(const Function& function) {
   } catch (const abi::__forced_unwind&) {
     for (;;) pause();
   }
+}
+
+/// The new reference that a C function of Python returned, which may have run code of Python's; throws its error if it
+/// returned none.
+inline py::object owned(PyObject* result) {
+  if (result == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::object>(result);
 }
 
 /// Releases the lock, which the thread holds, until the end of a block.

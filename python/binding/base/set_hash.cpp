@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "binding/base/set_hash.h"
 
+#include "nef/complex/predicates_of_sets.h"
 #include "nef/polyhedron.h"
-#include "nef/query/predicates_of_sets.h"
 
 namespace nef::python {
 namespace {

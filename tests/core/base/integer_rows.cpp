@@ -85,6 +85,36 @@ TEST_CASE("tables of integers give back what was pushed, short or long, and copi
   }
 }
 
+TEST_CASE("tables of integers keep some of their rows, and grow after that") {
+  std::mt19937 random(5);
+  for (const std::size_t width : {1U, 5U, 7U, 12U}) {
+    for (const int giants : {0, 20}) {
+      for (const unsigned one_of : {1U, 2U, 5U, 1000U}) {
+        CAPTURE(width, giants, one_of);
+        IntegerRows table(width);
+        std::vector<IntegerRow> rows;
+        std::vector<std::uint8_t> used;
+        for (int r = 0; r < 61; ++r) {
+          IntegerRow row = random_integer_row(random, width, giants);
+          push_row(table, row);
+          used.push_back(random() % one_of == 0 ? 1 : 0);
+          if (used.back() != 0) rows.push_back(std::move(row));
+        }
+        table.keep(used);
+        CHECK(holds_rows(table, rows));
+        for (int more = 0; more < 9; ++more) {
+          rows.push_back(random_integer_row(random, width, giants));
+          push_row(table, rows.back());
+        }
+        CHECK(holds_rows(table, rows));
+      }
+    }
+  }
+  IntegerRows none(3);
+  none.keep({});
+  CHECK(none.size() == 0);
+}
+
 TEST_CASE("a table of integers may begin with a giant") {
   IntegerRows table(2);
   const IntegerRow row{(Integer(1) << 9000) + 1, Integer(-3)};

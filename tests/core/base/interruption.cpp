@@ -20,13 +20,13 @@ TEST_CASE("what is stopped throws, and the operands are whole") {
   const Polyhedron b = test::set("box(1,1,1,3,3,3)");
   const std::atomic<bool> stop{true};
   const Monitor monitor = Monitor().stopped_by(&stop);
-  CHECK_THROWS_AS(unite(a, b, 1, monitor), Interrupted);
+  CHECK_THROWS_AS(unite(a, b, monitor), Interrupted);
   CHECK_THROWS_AS(interior(a, monitor), Interrupted);
   CHECK_THROWS_AS(convex_hull(std::vector<Rational3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, monitor),
                   Interrupted);
-  CHECK_FALSE(unite(a, b, 1, Monitor().stopped_by(nullptr)).is_empty());
+  CHECK_FALSE(unite(a, b, Monitor().stopped_by(nullptr)).is_empty());
   // Null changes nothing.
-  CHECK_THROWS_AS(unite(a, b, 1, monitor.stopped_by(nullptr)), Interrupted);
+  CHECK_THROWS_AS(unite(a, b, monitor.stopped_by(nullptr)), Interrupted);
   CHECK(validate(a.complex()).empty());
   CHECK(volume(unite(a, b)) == Rational(15));
 }
@@ -35,16 +35,15 @@ TEST_CASE("threads are stopped with the one that they work for", "[threads]") {
   for (const unsigned threads : {1U, 2U, 0U}) {
     std::atomic<bool> stop{false};
     std::atomic<int> begun{0};
-    const Monitor monitor = Monitor().stopped_by(&stop);
+    const Monitor monitor = Monitor().on_threads(threads).stopped_by(&stop);
     const auto stop_soon = [&](std::size_t, const Monitor& own) {
       if (++begun == 10) stop = true;
       own.check_interruption();
     };
-    CHECK_THROWS_AS(parallel_for(100000, threads, monitor, stop_soon), Interrupted);
+    CHECK_THROWS_AS(parallel_for(100000, monitor, stop_soon), Interrupted);
     CHECK(begun < 100000);
     stop = false;
-    CHECK_NOTHROW(
-        parallel_for(100, threads, monitor, [](std::size_t, const Monitor& own) { own.check_interruption(); }));
+    CHECK_NOTHROW(parallel_for(100, monitor, [](std::size_t, const Monitor& own) { own.check_interruption(); }));
   }
 }
 
@@ -92,7 +91,7 @@ TEST_CASE("what is done on other threads of a loop asks and tells in the thread 
       note();
       ++told;
     };
-    parallel_for(1000, threads, question.monitor().telling(tell), [&](std::size_t, const Monitor& own) {
+    parallel_for(1000, question.monitor().on_threads(threads).telling(tell), [&](std::size_t, const Monitor& own) {
       if (std::this_thread::get_id() == here) ++done_here;
       own.check_interruption();
       own.tell_progress("phase", 0, 0);
@@ -121,8 +120,8 @@ TEST_CASE("a function that is asked stops what goes on inside one operation", "[
   };
   {
     const StopQuestion question(ask);
-    CHECK_THROWS_AS(unite(a, b, 1, question.monitor()), Interrupted);
-    CHECK_THROWS_AS(unite(a, b, 1, question.monitor()), Interrupted);
+    CHECK_THROWS_AS(unite(a, b, question.monitor()), Interrupted);
+    CHECK_THROWS_AS(unite(a, b, question.monitor()), Interrupted);
   }
   CHECK(questions == 11);
   CHECK(volume(unite(a, b)) == Rational(6 * 21 * 2 - 36));
@@ -131,24 +130,24 @@ TEST_CASE("a function that is asked stops what goes on inside one operation", "[
     const StopQuestion question(ask);
     const std::atomic<bool> never{false};
     const auto body = [](std::size_t, const Monitor& own) { own.check_interruption(); };
-    CHECK_THROWS_AS(parallel_for(100000, threads, question.monitor(), body), Interrupted);
-    CHECK_NOTHROW(parallel_for(1000, threads, question.monitor().stopped_by(&never), body));
+    CHECK_THROWS_AS(parallel_for(100000, question.monitor().on_threads(threads), body), Interrupted);
+    CHECK_NOTHROW(parallel_for(1000, question.monitor().on_threads(threads).stopped_by(&never), body));
   }
   CHECK_FALSE(others_asked);
   // What stops the computation anyway goes on doing so under a function that has no objection, and under none.
   std::atomic<bool> stop{false};
   const StopQuestion inner([] { return false; }, Monitor().stopped_by(&stop));
   const StopQuestion innermost({}, inner.monitor());
-  CHECK_NOTHROW(unite(a, b, 1, innermost.monitor()));
+  CHECK_NOTHROW(unite(a, b, innermost.monitor()));
   stop = true;
-  CHECK_THROWS_AS(unite(a, b, 1, innermost.monitor()), Interrupted);
+  CHECK_THROWS_AS(unite(a, b, innermost.monitor()), Interrupted);
   // Questions inside each other are all asked.
   bool outer_stops = false;
   const StopQuestion outer([&outer_stops] { return outer_stops; });
   const StopQuestion within([] { return false; }, outer.monitor());
-  CHECK_NOTHROW(unite(a, b, 1, within.monitor()));
+  CHECK_NOTHROW(unite(a, b, within.monitor()));
   outer_stops = true;
-  CHECK_THROWS_AS(unite(a, b, 1, within.monitor()), Interrupted);
+  CHECK_THROWS_AS(unite(a, b, within.monitor()), Interrupted);
 }
 
 }  // namespace nef

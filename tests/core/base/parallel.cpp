@@ -28,10 +28,10 @@ TEST_CASE("parallel_for calls every index once and books all predicate counts on
       ++calls[i];
       own.count_filter(i);
       own.count_exact();
-      parallel_for(2, threads, own, [](std::size_t, const Monitor& inner) { inner.count_filter(1000); });
+      parallel_for(2, own.on_threads(threads), [](std::size_t, const Monitor& inner) { inner.count_filter(1000); });
       own.count_identity();
     };
-    parallel_for(calls.size(), threads, Monitor().counting(counts), body);
+    parallel_for(calls.size(), Monitor().on_threads(threads).counting(counts), body);
     for (const auto& count : calls) CHECK(count == 1);
     CHECK(counts.filter == 7 + 99 * 50 + 200 * 1000);
     CHECK(counts.exact == 100);
@@ -44,7 +44,7 @@ TEST_CASE("An operation counts the same predicates on any number of threads", "[
   for (int i = 0; i < 30; ++i) boxes.push_back(make_box({i % 7, i % 5, i / 7}, {i % 7 + 2, i % 5 + 1, i / 7 + 2}));
   const auto counted = [&boxes](unsigned threads) {
     PredicateCounts counts;
-    unite_all(boxes, threads, Monitor().counting(counts));
+    unite_all(boxes, Monitor().on_threads(threads).counting(counts));
     return counts;
   };
   const PredicateCounts one = counted(1);
@@ -75,7 +75,7 @@ TEST_CASE("An exception of a worker arrives in the caller", "[parallel]") {
   const auto body = [](std::size_t i, const Monitor&) {
     if (i == 5) throw std::runtime_error("five");
   };
-  CHECK_THROWS_WITH(parallel_for(20, 3, {}, body), "five");
+  CHECK_THROWS_WITH(parallel_for(20, Monitor().on_threads(3), body), "five");
   // What has been counted before is still there.
   PredicateCounts counts;
   counts.filter = 1000;
@@ -83,7 +83,7 @@ TEST_CASE("An exception of a worker arrives in the caller", "[parallel]") {
     own.count_filter();
     throw std::runtime_error("at once");
   };
-  CHECK_THROWS_WITH(parallel_for(20, 3, Monitor().counting(counts), count_and_throw), "at once");
+  CHECK_THROWS_WITH(parallel_for(20, Monitor().on_threads(3).counting(counts), count_and_throw), "at once");
   CHECK(counts.filter > 1000);
   CHECK(counts.filter <= 1020);
 }
@@ -91,7 +91,7 @@ TEST_CASE("An exception of a worker arrives in the caller", "[parallel]") {
 TEST_CASE("Of several exceptions the first in the order of the calls arrives, however fast the others are",
           "[parallel]") {
   for (const unsigned threads : {0U, 1U, 2U, 7U}) {
-    CHECK_THROWS_WITH(parallel_for(64, threads, {},
+    CHECK_THROWS_WITH(parallel_for(64, Monitor().on_threads(threads),
                                    [](std::size_t i, const Monitor&) {
                                      if (i == 3) std::this_thread::sleep_for(std::chrono::milliseconds(20));
                                      if (i >= 3) throw std::runtime_error("call " + std::to_string(i));
@@ -106,13 +106,13 @@ TEST_CASE("Unions and intersections of many sets do not depend on the number of 
     // Neighbours overlap, share faces, or touch in an edge.
     boxes.push_back(make_box({i % 7, i % 5, i / 7}, {i % 7 + 1 + i % 2, i % 5 + 1, i / 7 + 2}));
   }
-  const Polyhedron one = unite_all(boxes, 1);
-  CHECK(equal(unite_all(boxes, 3), one));
-  CHECK(equal(unite_all(boxes, 0), one));
+  const Polyhedron one = unite_all(boxes);
+  CHECK(equal(unite_all(boxes, Monitor().on_threads(3)), one));
+  CHECK(equal(unite_all(boxes, Monitor().on_threads(0)), one));
 
   std::vector<Polyhedron> slabs;
   for (const Polyhedron& box : boxes) slabs.push_back(complement(box));
-  CHECK(equal(intersect_all(slabs, 3), complement(one)));
+  CHECK(equal(intersect_all(slabs, Monitor().on_threads(3)), complement(one)));
 }
 
 }  // namespace

@@ -46,15 +46,15 @@ TEST_CASE("a Boolean tells its phases, and only while somebody listens") {
   Told told;
   const ProgressFunction function = told.function();
   const Monitor monitor = Monitor().telling(function);
-  CHECK(volume(unite(a, b, 1, monitor)) == Rational(15));
+  CHECK(volume(unite(a, b, monitor)) == Rational(15));
   CHECK(told.calls.at("edges through facets") == 3);  // at the beginning, and once for each operand
   CHECK(told.calls.at("sphere maps") == 1);
   CHECK(told.calls.at("synthesis") == 4);
   CHECK(told.last == 3);
   const auto before = told.calls;
-  unite(a, b, 1, monitor.quiet());
+  unite(a, b, monitor.quiet());
   const ProgressFunction nobody;
-  unite(a, b, 1, monitor.telling(nobody));
+  unite(a, b, monitor.telling(nobody));
   unite(a, b);
   CHECK(told.calls == before);
   CHECK(told.in_order);
@@ -66,7 +66,7 @@ TEST_CASE("many sets are counted as they are combined, by the thread that waits"
   for (const unsigned threads : {1U, 2U, 0U}) {
     Told told;
     const ProgressFunction function = told.function();
-    CHECK(volume(unite_all(sets, threads, Monitor().telling(function))) == Rational(40));
+    CHECK(volume(unite_all(sets, Monitor().on_threads(threads).telling(function))) == Rational(40));
     CHECK(told.calls.size() == 1);
     CHECK(told.calls.count("sets") == 1);
     CHECK(told.in_this_thread);
@@ -83,10 +83,10 @@ TEST_CASE("what a listener throws ends the computation and leaves the operands w
   const Polyhedron b = test::set("box(1,1,1,3,3,3)");
   for (const unsigned threads : {1U, 2U}) {
     const ProgressFunction refuse = [](const char*, std::size_t, std::size_t) { throw std::runtime_error("enough"); };
-    const Monitor monitor = Monitor().telling(refuse);
-    CHECK_THROWS_WITH(unite(a, b, 1, monitor), "enough");
+    const Monitor monitor = Monitor().on_threads(threads).telling(refuse);
+    CHECK_THROWS_WITH(unite(a, b, monitor), "enough");
     CHECK_THROWS_WITH(interior(a, monitor), "enough");
-    CHECK_THROWS_WITH(unite_all(std::vector<Polyhedron>{a, b}, threads, monitor), "enough");
+    CHECK_THROWS_WITH(unite_all(std::vector<Polyhedron>{a, b}, monitor), "enough");
   }
   CHECK(volume(unite(a, b)) == Rational(15));
 }

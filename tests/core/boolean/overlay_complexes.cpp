@@ -16,7 +16,7 @@ Polyhedron combined(const Polyhedron& a, const Polyhedron& b, unsigned table, un
                         [table](LabelId x, LabelId y) { return static_cast<LabelId>(table >> (2U * x + y) & 1U); });
   std::optional<Complex> made = overlay_complexes(
       a.complex(), b.complex(), f, [&]() -> const QueryStructure& { return a.queries(); },
-      [&]() -> const QueryStructure& { return b.queries(); }, threads, {});
+      [&]() -> const QueryStructure& { return b.queries(); }, Monitor().on_threads(threads));
   return made ? Polyhedron(std::move(*made)) : a;
 }
 
@@ -53,10 +53,11 @@ TEST_CASE("large sets on several threads", "[threads]") {
   const Polyhedron both = intersect(a, b);
   CHECK(*volume(either) + *volume(both) == *volume(a) + *volume(b));
   for (const unsigned threads : {2U, 0U}) {
-    CHECK(native_binary(unite(a, b, threads)) == native_binary(either));
-    CHECK(native_binary(intersect(a, b, threads)) == native_binary(both));
-    CHECK(native_binary(subtract(a, b, threads)) == native_binary(subtract(a, b)));
-    CHECK(native_binary(symmetric_difference(a, b, threads)) == native_binary(symmetric_difference(a, b)));
+    CHECK(native_binary(unite(a, b, Monitor().on_threads(threads))) == native_binary(either));
+    CHECK(native_binary(intersect(a, b, Monitor().on_threads(threads))) == native_binary(both));
+    CHECK(native_binary(subtract(a, b, Monitor().on_threads(threads))) == native_binary(subtract(a, b)));
+    CHECK(native_binary(symmetric_difference(a, b, Monitor().on_threads(threads))) ==
+          native_binary(symmetric_difference(a, b)));
   }
 }
 

@@ -143,9 +143,9 @@ TEST_CASE("the union of many sets is the same for any order of them, item for it
   sets.push_back(Polyhedron());
   const Polyhedron one = unite_all(sets);
   const std::string bytes = native_binary(one);
-  CHECK(native_binary(unite_all(sets, 2)) == bytes);
-  CHECK(native_binary(unite_all(sets, 5)) == bytes);
-  CHECK(native_binary(unite_all(sets, 0)) == bytes);
+  CHECK(native_binary(unite_all(sets, Monitor().on_threads(2))) == bytes);
+  CHECK(native_binary(unite_all(sets, Monitor().on_threads(5))) == bytes);
+  CHECK(native_binary(unite_all(sets, Monitor().on_threads(0))) == bytes);
   Polyhedron folded;
   for (const Polyhedron& set : sets) folded = unite(folded, set);
   const std::string canonical = native_binary(in_canonical_order(one));

@@ -201,7 +201,7 @@ TEST_CASE("Predicates of a union of cones with one apex grow with their sides", 
     const Polyhedron a = from_mesh(cone(sides, true, {1000, 1000}, 0));
     const Polyhedron b = from_mesh(cone(sides, true, {1000, 1000}, 500));
     PredicateCounts counts;
-    static_cast<void>(unite(a, b, 1, Monitor().counting(counts)));
+    static_cast<void>(unite(a, b, Monitor().counting(counts)));
     return counts.identity + counts.filter + counts.exact;
   };
   CHECK(signs(1600) < 6 * signs(400));

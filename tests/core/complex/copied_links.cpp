@@ -35,7 +35,7 @@ std::string difference_to_synthesis(const Complex& c) {
   again.shalfedge_plane = c.shalfedge_plane;
   again.other_planes = c.other_planes;
   again.sloops = c.sloops;
-  synthesize(again, c.volumes[kOuterVolume].mark, 1, {});
+  synthesize(again, c.volumes[kOuterVolume].mark, {});
   if (!same_bytes(c.twin.values(), again.twin.values())) return "twin";
   if (!same_bytes(c.svertex_owner.values(), again.svertex_owner.values())) return "svertex_owner";
   if (!same_bytes(c.pair_owner, again.pair_owner)) return "pair_owner";

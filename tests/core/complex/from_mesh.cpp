@@ -20,7 +20,7 @@ std::string outcome(const Mesh& mesh, unsigned threads) {
   Messages notes;
   std::string result;
   try {
-    result = native_binary(from_mesh(mesh, MeshOptions{.threads = threads}, &notes));
+    result = native_binary(from_mesh(mesh, MeshOptions{.monitor = Monitor().on_threads(threads)}, &notes));
   } catch (const InputError& error) {
     result = error.what();
   }
@@ -81,7 +81,8 @@ TEST_CASE("what is wrong in the middle of a mesh is told, checked or not", "[thr
   }
   for (const bool check : {true, false}) {
     for (const unsigned threads : {1U, 2U}) {
-      CHECK_THROWS_AS(from_mesh(mesh, MeshOptions{.check = check, .threads = threads}), InputError);
+      CHECK_THROWS_AS(from_mesh(mesh, MeshOptions{.check = check, .monitor = Monitor().on_threads(threads)}),
+                      InputError);
     }
   }
 }
@@ -107,8 +108,8 @@ TEST_CASE("folded surfaces enclose nothing, checked or not", "[threads]") {
     same_on_any_number(mesh);
     for (const bool check : {true, false}) {
       for (const unsigned threads : {1U, 2U, 4U}) {
-        CHECK_THROWS_WITH(from_mesh(mesh, MeshOptions{.check = check, .threads = threads}),
-                          "the faces of the mesh enclose nothing");
+        CHECK_THROWS_WITH(from_mesh(mesh, MeshOptions{.check = check, .monitor = Monitor().on_threads(threads)}),
+                          Catch::StartsWith("the faces of the mesh enclose nothing"));
       }
     }
   }

@@ -50,9 +50,9 @@ Polyhedron many_cells(int along) {
 
 Complex linked_anew(const Complex& c, unsigned threads) {
   PlaneTable planes = c.planes;
-  ComplexBuilder builder(planes, {});
+  ComplexBuilder builder(planes, Monitor().on_threads(threads));
   builder.copy(c);
-  return builder.finish(0, threads);
+  return builder.finish(0);
 }
 
 void check_same_facets(const Complex& a, const Complex& b) {
@@ -93,7 +93,7 @@ TEST_CASE("A volume in doubles does not depend on the number of threads", "[thre
   const Polyhedron set = many_cells(7);
   REQUIRE(set.complex().facet_count() > 4096);  // of a task
   const MeasuredVolume one = approximate_volume(set);
-  const MeasuredVolume three = approximate_volume(set, 3);
+  const MeasuredVolume three = approximate_volume(set, Monitor().on_threads(3));
   CHECK(one.value == three.value);
   CHECK(one.error == three.error);
   const Rational exact = *volume(set);
@@ -107,7 +107,7 @@ TEST_CASE("An area in doubles is off by no more than it says, and does not depen
   const AffineMap away = AffineMap::translate({Rational(100001, 3), Rational(200003, 7), Rational(-50, 11)});
   for (const Polyhedron& some : {set, transform(set, away.after(oblique_rotation()))}) {
     const MeasuredArea one = approximate_area(some);
-    const MeasuredArea three = approximate_area(some, 3);
+    const MeasuredArea three = approximate_area(some, Monitor().on_threads(3));
     CHECK(one.value == three.value);
     CHECK(one.error == three.error);
     const double area = surface_area(some);  // within some units in the last place

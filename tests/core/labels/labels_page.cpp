@@ -6,25 +6,16 @@
 #include <functional>
 
 #include "nef/construct/construct.h"
-#include "nef/export/to_mesh.h"
+#include "nef/export/mesh_with_origins.h"
 #include "nef/labeled_polyhedron.h"
-#include "nef/operation/label_inputs.h"
-
-using nef::InputSet;
 
 namespace {
 
 std::vector<bool> cut_by_b(const nef::Polyhedron& a, const nef::Polyhedron& b, nef::Mesh& mesh) {
-  const nef::LabeledPolyhedron<InputSet> labeled = nef::label_inputs(std::vector<nef::Polyhedron>{a, b});
-  nef::MeshExportOptions options;
-  options.selected = [&](nef::LabelId mark) { return labeled.label(mark) == InputSet{0}; };
-  options.face_marks = true;
-  nef::MeshExport result = nef::to_mesh(labeled.polyhedron(), options);
+  const std::vector<nef::Polyhedron> inputs{a, b};
+  nef::MeshWithOrigins result = nef::mesh_with_origins(inputs, nef::membership("difference"));
   std::vector<bool> cut;
-  for (const auto& [inside, outside, facet] : result.face_marks) {
-    const InputSet from = nef::origins(labeled.label(inside), labeled.label(outside));
-    cut.push_back(std::find(from.begin(), from.end(), 1U) != from.end());
-  }
+  for (const nef::InputSet& from : result.origins) cut.push_back(std::find(from.begin(), from.end(), 1U) != from.end());
   mesh = std::move(result.mesh);
   return cut;
 }

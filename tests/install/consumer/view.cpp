@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
 #include <iostream>
+#include "apps/view/picture.h"
 #include "nef/construct/construct.h"
-#include "nef/view/picture.h"
 int main() {
   nef::view::Layer layer;
   layer.scene = nef::view::build_scene(nef::make_box({0, 0, 0}, {2, 2, 2}), {});

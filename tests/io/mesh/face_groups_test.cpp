@@ -69,14 +69,14 @@ TEST_CASE("a face lies on the boundary of the inputs that it is said to come fro
       const Rational3 low{below(5), below(5), below(5)};
       sets.push_back(make_box(low, {low[0] + 1 + below(3), low[1] + 1 + below(3), low[2] + 1 + below(3)}));
     }
-    const LabeledPolyhedron<InputSet> labeled = label_inputs(sets, 2);
+    const LabeledPolyhedron<InputSet> labeled = label_inputs(sets, Monitor().on_threads(2));
     CHECK(validate(labeled.polyhedron().complex()).empty());
     CHECK(equal(labeled.where([](const InputSet& s) { return !s.empty(); }), unite_all(sets)));
     CHECK(equal(labeled.where([](const InputSet& s) { return s == InputSet{0}; }),
                 subtract(sets[0], unite_all(std::vector<Polyhedron>(sets.begin() + 1, sets.end())))));
     MeshExportOptions options;
     options.face_marks = true;
-    options.keep_polygons = options.only_convex = round % 2 == 0;
+    options.keep_polygons = options.only_quads = round % 2 == 0;
     // The union, and the points in exactly one set.
     for (const std::size_t most : {std::size_t{5}, std::size_t{1}}) {
       options.selected = [&](LabelId mark) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Lids against all triangulations of small loops; borders against the balance of sides, counted here.
-#include "nef/import/lids.h"
+#include "nef/import/repair/lids.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>

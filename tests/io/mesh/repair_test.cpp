@@ -2,12 +2,15 @@
 //
 // Damaged in known ways, meshes become the solid they were.
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <random>
 
 #include "nef/base/error.h"
 #include "nef/export/to_mesh.h"
 #include "nef/import/repair.h"
+#include "nef/import/repair/signed_volume.h"
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/polyhedron.h"
 
@@ -32,6 +35,31 @@ void check_repaired(const Mesh& mesh, const Polyhedron& wanted, const RepairOpti
   REQUIRE(repaired.problem.empty());
   CHECK(equal(from_mesh(repaired.mesh), wanted));
 }
+
+// The meshes of some solids as one.
+Mesh together(const std::vector<Polyhedron>& sets) {
+  Mesh result;
+  for (const Polyhedron& set : sets) {
+    const Mesh mesh = mesh_of(set);
+    const auto first = static_cast<std::uint32_t>(result.vertices.size());
+    result.vertices.insert(result.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+      std::vector<std::uint32_t> ring;
+      for (const std::uint32_t v : mesh.face(f)) ring.push_back(first + v);
+      result.push_face(ring);
+    }
+  }
+  return result;
+}
+
+// Turns the faces from `first` on.
+Mesh turned_over(const Mesh& mesh, std::size_t first) {
+  return changed(mesh, [&](auto& rings) {
+    for (std::size_t f = first; f < rings.size(); ++f) std::reverse(rings[f].begin(), rings[f].end());
+  });
+}
+
+constexpr RepairOptions kUniting{.crossings = Crossings::kUnion};
 
 }  // namespace
 
@@ -156,6 +184,37 @@ TEST_CASE("Blocks of cubes with all their walls are repaired", "[repair]") {
   }
 }
 
+TEST_CASE("A skin that was doubled stays where it touches another one in an edge or a vertex", "[repair]") {
+  for (const Rational3& corner : {Rational3{1, 0, 1}, Rational3{1, 1, 0}, Rational3{1, 1, 1}, Rational3{3, 0, 0}}) {
+    const Polyhedron a = make_box({0, 0, 0}, {1, 1, 1});
+    const Polyhedron b = make_box(corner, {corner[0] + 1, corner[1] + 1, corner[2] + 1});
+    check_repaired(together({a, b, b}), unite(a, b));
+  }
+}
+
+TEST_CASE("Solids that share faces on the same side are no copies of each other", "[repair][crossings]") {
+  const Polyhedron low = make_box({0, 0, 0}, {2, 2, 1});
+  const Polyhedron high = make_box({0, 0, 0}, {2, 2, 3});
+  const Polyhedron beside = make_box({2, 0, 0}, {4, 2, 1});
+  const Polyhedron both = unite(high, beside);
+  CHECK(equal(repair_mesh(together({low, high, beside}), kUniting).set, both));
+  CHECK(equal(repair_mesh(together({low, low, high, beside}), kUniting).set, both));
+  // A T-junction beside them: the middle of an edge of the bottom, in one face only.
+  Mesh cut = together({low, high, beside});
+  std::vector<std::vector<std::uint32_t>> rings;
+  for (std::size_t f = 0; f < cut.face_count(); ++f) rings.emplace_back(cut.face(f).begin(), cut.face(f).end());
+  Rational3 middle;
+  for (std::size_t i = 0; i < 3; ++i) middle[i] = (cut.vertices[rings[0][0]][i] + cut.vertices[rings[0][1]][i]) / 2;
+  rings[0].insert(rings[0].begin() + 1, static_cast<std::uint32_t>(cut.vertices.size()));
+  Mesh damaged;
+  damaged.vertices = cut.vertices;
+  damaged.vertices.push_back(middle);
+  for (const auto& ring : rings) damaged.push_face(ring);
+  const RepairedMesh repaired = repair_mesh(damaged, kUniting);
+  CHECK(repaired.problem.empty());
+  CHECK(equal(repaired.set, both));
+}
+
 TEST_CASE("T-junctions close, with slivers and without", "[repair]") {
   // The front of a box has a vertex in the middle of its upper edge, the top has not.
   const char* vertices = "0 0 0\n4 0 0\n4 4 0\n0 4 0\n0 0 4\n4 0 4\n4 4 4\n0 4 4\n2 0 4\n";
@@ -178,35 +237,6 @@ TEST_CASE("Planar holes are filled when asked", "[repair]") {
   fill.fill_holes = true;
   check_repaired(open, set, fill);
 }
-
-namespace {
-
-// The meshes of some solids as one.
-Mesh together(const std::vector<Polyhedron>& sets) {
-  Mesh result;
-  for (const Polyhedron& set : sets) {
-    const Mesh mesh = mesh_of(set);
-    const auto first = static_cast<std::uint32_t>(result.vertices.size());
-    result.vertices.insert(result.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-      std::vector<std::uint32_t> ring;
-      for (const std::uint32_t v : mesh.face(f)) ring.push_back(first + v);
-      result.push_face(ring);
-    }
-  }
-  return result;
-}
-
-// Turns the faces from `first` on.
-Mesh turned_over(const Mesh& mesh, std::size_t first) {
-  return changed(mesh, [&](auto& rings) {
-    for (std::size_t f = first; f < rings.size(); ++f) std::reverse(rings[f].begin(), rings[f].end());
-  });
-}
-
-constexpr RepairOptions kUniting{.crossings = Crossings::kUnion};
-
-}  // namespace
 
 TEST_CASE("Faces that cross are resolved by the rule, and it is said what is counted how", "[repair][crossings]") {
   const Polyhedron a = make_box({0, 0, 0}, {2, 2, 2});
@@ -243,6 +273,75 @@ TEST_CASE("Faces that cross are resolved by the rule, and it is said what is cou
   const RepairedMesh once = repair_mesh(doubled, kUniting);
   REQUIRE(once.resolved);
   CHECK(equal(once.resolved->set, unite(a, b)));
+}
+
+TEST_CASE("The signed volume of faces is the sum of winding numbers times volumes", "[repair][crossings]") {
+  const Polyhedron a = make_box({0, 0, 0}, {2, 2, 2});
+  const Polyhedron b = make_box({1, 1, 1}, {3, 3, Rational(10, 3)});
+  const std::size_t faces = mesh_of(a).face_count();
+  for (const bool turned : {false, true}) {
+    const Mesh mesh = turned ? turned_over(together({a, b}), faces) : together({a, b});
+    const Rational wanted = 8 + Rational(turned ? -28 : 28, 3);
+    const MeasuredVolume signed_one = signed_volume(mesh);
+    CHECK(abs(Rational(signed_one.value) - wanted) <= Rational(signed_one.error));
+    CHECK(signed_one.error < 1e-12);
+    const RepairedMesh repaired = repair_mesh(mesh, kUniting);
+    REQUIRE(repaired.resolved);
+    double sum = 0;
+    for (const auto& [winding, entry] : repaired.resolved->volumes) sum += winding * entry.measured.value;
+    CHECK(sum == Approx(repaired.signed_volume.value));
+  }
+  CHECK(signed_volume(Mesh()).value == 0);
+}
+
+// A box whose corners are moved, so that its faces lie in no plane, each listed from any of its corners. Between two
+// corners of its top is another one at this height, which makes a notch.
+Mesh bent_box(std::mt19937& random, const Rational& height, bool turned_over) {
+  const auto little = [&] { return Rational(static_cast<long>(random() % 200) - 100, 1000); };
+  Mesh mesh;
+  for (unsigned i = 0; i < 8; ++i) {
+    mesh.vertices.push_back({Rational(i & 1U) + little(), Rational(i / 2 & 1U) + little(), Rational(i / 4) + little()});
+  }
+  mesh.vertices.push_back({Rational(1, 2) + little(), Rational(1, 3) + little(), height + little()});
+  std::vector<std::vector<std::uint32_t>> rings{{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 8, 4},
+                                                {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 8, 5, 7, 6}};
+  for (auto& ring : rings) {
+    std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(random() % ring.size()), ring.end());
+    if (turned_over) std::reverse(ring.begin(), ring.end());
+    mesh.push_face(ring);
+  }
+  return mesh;
+}
+
+TEST_CASE("Bent faces are the same surface however their corners are listed", "[repair]") {
+  std::mt19937 random(12);
+  for (int round = 0; round < 40; ++round) {
+    const Mesh mesh = bent_box(random, Rational(1, 2), false);
+    const Mesh listed = changed(mesh, [&](auto& rings) {
+      std::shuffle(rings.begin(), rings.end(), random);
+      for (auto& ring : rings) {
+        std::rotate(ring.begin(), ring.begin() + static_cast<std::ptrdiff_t>(random() % ring.size()), ring.end());
+        std::reverse(ring.begin(), ring.end());
+      }
+    });
+    CHECK(
+        equal(from_mesh(listed, {.crossings = Crossings::kUnion}), from_mesh(mesh, {.crossings = Crossings::kUnion})));
+  }
+}
+
+TEST_CASE("A mesh of bent faces that is turned over is what its solid was made of", "[repair][crossings]") {
+  std::mt19937 random(13);
+  for (int round = 0; round < 20; ++round) {
+    const Mesh mesh = bent_box(random, Rational(-1, 2), true);  // the notch goes through the bottom
+    const RepairedMesh repaired = repair_mesh(mesh, kUniting);
+    REQUIRE(repaired.problem.empty());
+    REQUIRE(repaired.resolved);
+    CHECK(repaired.done.front() == "1 component turned over");
+    CHECK(equal(from_mesh(repaired.mesh, {.crossings = Crossings::kUnion}), repaired.set));
+    double sum = 0;
+    for (const auto& [winding, entry] : repaired.resolved->volumes) sum += winding * entry.measured.value;
+    CHECK(sum == Approx(repaired.signed_volume.value));
+  }
 }
 
 TEST_CASE("A component that stands on another one is turned over", "[repair][crossings]") {
@@ -301,6 +400,56 @@ TEST_CASE("Soups of tetrahedra with faces turned and doubled become their union"
   CHECK(resolved > 20);
 }
 
+TEST_CASE("A surface that cannot be oriented is refused, unless the rule does not care", "[repair][crossings]") {
+  // A Klein bottle: a figure of eight that goes around a ring and turns over on the way; a wall of eight
+  // corners for each of twelve places along the ring, moved to a grid.
+  constexpr std::uint32_t kAround = 12;
+  constexpr std::uint32_t kEight = 8;
+  Mesh bottle;
+  for (std::uint32_t i = 0; i < kAround; ++i) {
+    for (std::uint32_t k = 0; k < kEight; ++k) {
+      const double u = 2 * M_PI * i / kAround;
+      const double v = 2 * M_PI * (k + 0.5) / kEight;
+      const double r = 3 + std::cos(u / 2) * std::sin(v) - std::sin(u / 2) * std::sin(2 * v);
+      const double z = std::sin(u / 2) * std::sin(v) + std::cos(u / 2) * std::sin(2 * v);
+      Rational3& p = bottle.vertices.emplace_back();
+      const std::array<double, 3> place{r * std::cos(u), r * std::sin(u), z};
+      for (std::size_t c = 0; c < 3; ++c) p[c] = Rational(std::lround(1000 * place[c])) / 1000;
+    }
+  }
+  const auto at = [](std::uint32_t i, std::uint32_t k) {
+    k %= kEight;
+    return i < kAround ? i * kEight + k : kEight - 1 - k;
+  };
+  for (std::uint32_t i = 0; i < kAround; ++i) {
+    for (std::uint32_t k = 0; k < kEight; ++k) {
+      bottle.push_face(std::array{at(i, k), at(i + 1, k), at(i + 1, k + 1)});
+      bottle.push_face(std::array{at(i, k), at(i + 1, k + 1), at(i, k + 1)});
+    }
+  }
+  for (const Crossings rule : {Crossings::kRefuse, Crossings::kUnion, Crossings::kNonzero}) {
+    for (const double percent : {0.0, 100.0}) {
+      const RepairedMesh refused = repair_mesh(bottle, {.close_percent = percent, .crossings = rule, .record = true});
+      CHECK_THAT(refused.problem,
+                 Catch::StartsWith("the surface cannot be oriented: a way around it leads from face "));
+      CHECK_THAT(advice_about(refused, percent), Catch::StartsWith("; --crossings odd or outside"));
+      CHECK(refused.record.fates.size() == bottle.face_count());
+    }
+  }
+  CHECK_THROWS_WITH(from_mesh(bottle, {.crossings = Crossings::kUnion, .close_percent = 10}),
+                    Catch::Contains("cannot be oriented") && Catch::Contains("crossings=\"odd\""));
+  const RepairedMesh odd = repair_mesh(bottle, {.crossings = Crossings::kOdd});
+  REQUIRE(odd.problem.empty());
+  const RepairedMesh outside = repair_mesh(bottle, {.crossings = Crossings::kOutside});
+  REQUIRE(outside.problem.empty());
+  CHECK(volume(odd.set) > 0);
+  CHECK(subtract(odd.set, outside.set).is_empty());
+  for (const Polyhedron& set : {odd.set, outside.set}) {
+    CHECK(contains(set, {Rational(18, 5), 0, Rational(1, 100)}));  // in a loop of the eight
+    CHECK_FALSE(contains(set, {3, 0, Rational(1, 2)}));            // between its loops
+  }
+}
+
 TEST_CASE("Holes get lids if these are small", "[repair][lids]") {
   const Polyhedron cube = make_box({0, 0, 0}, {2, 2, 2});
   MeshExportOptions polygons;
@@ -335,6 +484,46 @@ TEST_CASE("Holes get lids if these are small", "[repair][lids]") {
   const Mesh sheet = read_off("OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n", "sheet.off");
   CHECK(repair_mesh(sheet, {.close_percent = 100, .crossings = Crossings::kUnion}).problem ==
         "the faces of the mesh enclose nothing");
+  const RepairedMesh flat = repair_mesh(sheet, {.close_percent = 10, .crossings = Crossings::kUnion});
+  CHECK(flat.is_flat);
+  CHECK_THAT(advice_about(flat, 10),
+             Catch::Contains("enclose nothing under any lid") && Catch::Contains("--as-surface"));
+  CHECK_FALSE(repair_mesh(open, {.close_percent = 10}).is_flat);
+}
+
+TEST_CASE("Import closes holes with the lids that a repair would make, and notes it", "[repair][lids]") {
+  const Polyhedron cube = make_box({0, 0, 0}, {2, 2, 2});
+  MeshExportOptions polygons;
+  polygons.keep_polygons = true;
+  const Mesh whole = to_mesh(cube, polygons).mesh;
+  const Mesh open = changed(whole, [](auto& rings) { rings.pop_back(); });
+  CHECK_THROWS_WITH(from_mesh(open), Catch::EndsWith("--close (close=10 in Python) closes holes with lids, a guess"));
+  CHECK_THROWS_WITH(
+      from_mesh(open, {.close_percent = 10}),
+      Catch::EndsWith("open there; lids for its hole are more than 10 % of the area, --close=17 accepts them"));
+  Messages notes;
+  CHECK(equal(from_mesh(open, {.close_percent = 17}, &notes), cube));
+  CHECK(notes == Messages{"1 hole closed by lids of 17 % of the area, 1 of them flat: a guess"});
+  // What needs no repair is taken as it is, and a surface stays one.
+  notes.clear();
+  CHECK(equal(from_mesh(whole, {.close_percent = 10}, &notes), cube));
+  CHECK(volume(from_mesh(open, {.as_surface = true, .close_percent = 50}, &notes)) == Rational(0));
+  CHECK(notes.empty());
+  // Turned faces are turned back; strictness is kept.
+  const Mesh mixed = changed(open, [](auto& rings) { std::reverse(rings[0].begin(), rings[0].end()); });
+  CHECK_THROWS_WITH(from_mesh(mixed), Catch::Contains("only") || Catch::Contains("nef repair turns faces"));
+  CHECK(equal(from_mesh(mixed, {.close_percent = 17}, &notes), cube));
+  CHECK(notes.front() == "1 face turned to fit the neighbours");
+  Mesh bent = open;
+  bent.vertices[0] = {Rational(-1, 3), Rational(-1, 5), Rational(-1, 7)};
+  CHECK_THROWS_WITH(from_mesh(bent, {.strict = true, .close_percent = 40}), Catch::Contains("plan"));
+  CHECK(volume(from_mesh(bent, {.close_percent = 40})) > 8);
+  // The rule for crossings holds for what is closed.
+  const Mesh two = together({cube, make_box({1, 1, 1}, {3, 3, 3})});
+  const Mesh torn = changed(two, [](auto& rings) { rings.pop_back(); });
+  CHECK(equal(from_mesh(torn, {.crossings = Crossings::kUnion, .close_percent = 10}),
+              unite(cube, make_box({1, 1, 1}, {3, 3, 3}))));
+  CHECK_THROWS_AS(from_mesh(torn, {.close_percent = 10}), InputError);
 }
 
 TEST_CASE("What can not be repaired is told", "[repair]") {

@@ -4,11 +4,13 @@
 // any apex span tetrahedra, and a point is wound around by the sum of the signs of those that hold it. Where components
 // are boxes on a grid, cells are filled instead.
 #include "nef/import/resolve_mesh.h"
+#include "nef/import/generalized_winding.h"
 
 #include <catch2/catch.hpp>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <queue>
 #include <random>
@@ -18,6 +20,7 @@
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 #include "nef/geometry/vectors.h"
+#include "nef/mesh/surface/mesh_surface.h"
 #include "nef/polyhedron.h"
 #include "nef/validation/validate.h"
 
@@ -161,7 +164,7 @@ void for_each_triangle(const Mesh& mesh, Visit visit) {
   }
 }
 
-Rational signed_volume(const Mesh& mesh) {
+Rational volume_of_faces(const Mesh& mesh) {
   Rational sum = 0;
   for_each_triangle(mesh,
                     [&](const Rational3& a, const Rational3& b, const Rational3& c) { sum += determinant(a, b, c); });
@@ -203,7 +206,7 @@ TEST_CASE("Random soups become what their winding numbers say", "[crossings]") {
   std::map<int, int> seen;
   for (int round = 0; round < 400; ++round) {
     const Soup soup = random_soup(random);
-    const Rational total = signed_volume(soup.mesh);
+    const Rational total = volume_of_faces(soup.mesh);
     const int turn = total < 0 ? -1 : 1;
     const Rational3 apex = generic_point(random, 9);
     std::vector<Rational3> points;
@@ -215,7 +218,8 @@ TEST_CASE("Random soups become what their winding numbers say", "[crossings]") {
     }
     for (const Crossings rule : {Crossings::kUnion, Crossings::kNonzero, Crossings::kOdd}) {
       INFO("round " << round << ", " << name(rule));
-      const MeshOptions options{.crossings = rule, .threads = 1U + static_cast<unsigned>(round % 2)};
+      const MeshOptions options{.crossings = rule,
+                                .monitor = Monitor().on_threads(1U + static_cast<unsigned>(round % 2))};
       Polyhedron set;
       try {
         set = from_mesh(soup.mesh, options);
@@ -402,6 +406,74 @@ TEST_CASE("Rules say what they do, and refusals which rule to take", "[crossings
   open.corners.resize(open.face_begin.back());
   for (const Crossings rule : kAllCrossings) CHECK_THROWS_AS(from_mesh(open, {.crossings = rule}), InputError);
   CHECK_THROWS_WITH(from_mesh(open), !Catch::Contains("crossings"));
+}
+
+namespace {
+
+// A square across an axis, seen counterclockwise from the side of `sign`, of half-side 2 about the point `at` of the
+// axis.
+void add_square(Soup& soup, std::size_t axis, int at, int sign, int half = 2) {
+  Mesh square;
+  constexpr std::array<std::array<int, 2>, 4> kCorners{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  for (const auto& corner : kCorners) {
+    Rational3 p;
+    p[axis] = at;
+    p[(axis + 1) % 3] = half * corner[0];
+    p[(axis + 2) % 3] = half * corner[1];
+    square.vertices.push_back(p);
+  }
+  square.push_face(sign > 0 ? std::array<std::uint32_t, 4>{0, 1, 2, 3} : std::array<std::uint32_t, 4>{3, 2, 1, 0});
+  soup.add(square);
+}
+
+}  // namespace
+
+TEST_CASE("Winding numbers of open surfaces are solid angles", "[crossings][guess]") {
+  // A square of side s at distance d is seen under the angle 4 atan(s^2 / (2 d sqrt(4 d^2 + 2 s^2))).
+  for (const double d : {0.125, 1.0, 3.0, 100.0}) {
+    Soup soup;
+    add_square(soup, 1, 0, 1, 1);
+    const MeshSurface surface(soup.mesh, {});
+    const double angle = 4 * std::atan(4 / (2 * d * std::sqrt(4 * d * d + 8)));
+    const GeneralizedWinding winding(soup.mesh, surface.triangles);
+    const double full = 4 * std::acos(-1.0);
+    CHECK(winding.around({0, -Rational(d), 0}) == Approx(angle / full));
+    CHECK(winding.around({0, Rational(d), 0}) == Approx(-angle / full));
+  }
+  const Mesh closed = box({0, 0, 0}, {1, 2, 3});
+  const MeshSurface surface(closed, {});
+  const GeneralizedWinding winding(closed, surface.triangles);
+  CHECK(winding.around({Rational(1, 7), Rational(9, 5), 1}) == Approx(1));
+  CHECK(winding.around({Rational(8, 7), Rational(9, 5), 1}) == Approx(0).margin(1e-12));
+}
+
+TEST_CASE("A soup of open sheets is guessed by how its faces wind, and that is told", "[crossings][guess]") {
+  // Six squares that stick out beyond a cube, and a lid over one of the shafts beside it, turned towards the cube.
+  Soup soup;
+  for (const std::size_t axis : {0U, 1U, 2U}) {
+    for (const int sign : {-1, 1}) add_square(soup, axis, sign, sign);
+  }
+  add_square(soup, 0, 2, -1, 3);
+  CHECK_THROWS_AS(from_mesh(soup.mesh, {.crossings = Crossings::kUnion}), InputError);
+  Messages notes;
+  const Polyhedron guessed = from_mesh(soup.mesh, {.crossings = Crossings::kGuess}, &notes);
+  CHECK(equal(guessed, make_box({-1, -1, -1}, {1, 1, 1})));
+  REQUIRE(notes.size() == 1);
+  CHECK(notes[0].find("what the faces wind around by half at least, a guess, was taken") != std::string::npos);
+  // All that is enclosed has the shaft, too.
+  CHECK(equal(from_mesh(soup.mesh, {.crossings = Crossings::kOutside}), make_box({-1, -1, -1}, {2, 1, 1})));
+  // One square that is turned wrongly is outvoted.
+  Soup turned;
+  for (const std::size_t axis : {0U, 1U, 2U}) {
+    for (const int sign : {-1, 1}) add_square(turned, axis, sign, axis == 2 ? 1 : sign);
+  }
+  CHECK(equal(from_mesh(turned.mesh, {.crossings = Crossings::kGuess}), make_box({-1, -1, -1}, {1, 1, 1})));
+  // A closed mesh is what union makes of it.
+  Soup overlapping;
+  overlapping.add(box({0, 0, 0}, {2, 2, 2}));
+  overlapping.add(box({1, 1, 1}, {3, 3, 3}));
+  CHECK(equal(from_mesh(overlapping.mesh, {.crossings = Crossings::kGuess}),
+              from_mesh(overlapping.mesh, {.crossings = Crossings::kUnion})));
 }
 
 TEST_CASE("A polygon that crosses itself is taken as a cycle", "[crossings]") {

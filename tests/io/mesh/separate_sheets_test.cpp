@@ -23,7 +23,7 @@ Polyhedron cube(int x, int y, int z) { return make_box({x, y, z}, {x + 1, y + 1,
 Mesh mesh_of(const Polyhedron& solid, bool polygons) {
   MeshExportOptions options;
   options.keep_polygons = polygons;
-  options.only_convex = true;
+  options.only_quads = true;
   return to_mesh(solid, options).mesh;
 }
 

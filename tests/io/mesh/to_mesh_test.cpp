@@ -48,7 +48,7 @@ bool mentions(const std::vector<std::string>& lines, const std::string& text) {
   return false;
 }
 
-TEST_CASE("A box keeps its polygons or has twelve triangles; nothing is lost") {
+TEST_CASE("A box keeps its polygons or has twelve triangles, nothing is lost") {
   const Polyhedron box = make_box({0, 0, 0}, {1, 2, Rational(1, 3)});
   MeshExportOptions options;
   options.keep_polygons = true;

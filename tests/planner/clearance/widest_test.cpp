@@ -9,10 +9,10 @@
 #include "apps/planner/clearance/widest.h"
 #include "apps/planner/path/path.h"
 #include "apps/planner/path/question.h"
+#include "apps/program/exact_json.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 #include "nef/distance/distance.h"
-#include "nef/program/exact_json.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
 
@@ -30,7 +30,7 @@ TEST_CASE("lists with time stamps have one line for each time") {
   CHECK(distinct_times(times) == Numbers{0, 1, 3});
 }
 
-TEST_CASE("bisection: simple critical sizes are met, others are between; what is undecided is said") {
+TEST_CASE("bisection: simple critical sizes are met, others are between, what is undecided is said") {
   for (const Rational& critical : {ratio(3, 2), ratio(1, 7), ratio(100, 3), Rational(1)}) {
     const Widest found = find_widest(1, ratio(1, 1000), true, [&](const Rational& size) {
       return size <= critical ? Verdict::kPath : Verdict::kNone;

@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Obstacles that come and go, and many questions about one scene: the answers are those of a new start.
+// Obstacles that come and go: the answers are those of a new start.
 #include <catch2/catch.hpp>
 #include <random>
 
 #include "apps/planner/free_space/free_positions.h"
-#include "apps/planner/ompl/cell_sampler.h"
 #include "apps/planner/ompl/translation_planning.h"
-#include "nef/program/exact_json.h"
-#include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
-#include "tests/support/report_shape.h"
 
 namespace nef::planner::test {
 namespace {
@@ -158,56 +154,6 @@ TEST_CASE("TranslationPlanning: an obstacle that leaves the way free leaves the 
   setup.getTightPlanner()->setMinDimension(3);
   ask();
   CHECK(setup.getTightPlanner()->getExactPath()->thinness.piece == 3);
-}
-
-TEST_CASE("TightPlanner needs no roadmap for OMPL's own setup, nor to draw from facets of any shape") {
-  TranslationPlanning setup;
-  setup.setRobot(make_box({0, 0, 0}, {1, 1, 1}));
-  setup.addObstacle(make_box({0, 0, -1}, {9, 9, 0}));
-  // The passage between the two is shaped like an L.
-  setup.addObstacle(unite(make_box({0, 0, 1}, {9, 3, 2}), make_box({0, 0, 1}, {3, 9, 2})));
-  setup.setExactStartAndGoal({-5, -5, 0}, {20, 20, 0});
-  setup.setup();
-  const std::shared_ptr<const FreeSpace> free = setup.getFreeSpace();
-  CHECK_FALSE(free->has_roadmap());
-  CHECK(setup.getStateSpace()->getDefaultProjection()->getDimension() == 3);
-  const CellPool pool(free);
-  ompl::RNG random(7);
-  int concave = 0;
-  for (int i = 0; i < 400; ++i) {
-    const CellId cell = free->locate(ExactPoint(pool.draw(random)));
-    REQUIRE(free->is_free(cell));
-    if (free->cells().dimension(cell) == 2 && free->vertices(cell).size() == 6) ++concave;
-  }
-  CHECK(concave > 5);
-  CHECK_FALSE(free->has_roadmap());
-}
-
-TEST_CASE("many questions about one scene") {
-  const Folder folder;
-  const std::string scene = folder.write("scene.json", R"J({"robot": "box(0,0,0, 1,1,1)",
-    "obstacles": ["box(4,-9,-9, 5,9,9) - box(4,0,0, 5,1,1)"], "box": [[0,-8,-8],[9,8,8]]})J");
-  const std::string lines = folder.write("lines.txt", "0 0 0 9 0 0\n\n1/3,0,0, 2,2,2\n");
-  const Run run = planner(folder, scene + " --queries " + lines);
-  CHECK(run.code == 0);
-  CHECK(run.out == "path, length 9\npath, length 3.28295\n");
-  const std::string list = folder.write("list.json", R"J([{"start": [0,0,0], "goal": ["1/2",0,0]},
-    {"start": [0,0,0], "goal": [4,4,4]}, {"start": [20,0,0], "goal": [0,0,0]}])J");
-  const Run report = planner(folder, scene + " --json --queries " + list);
-  CHECK(report.code == 3);
-  nef::test::check_report_shape(nlohmann::json::parse(report.out), "queries");
-  const nlohmann::json answers = nlohmann::json::parse(report.out)["queries"];
-  REQUIRE(answers.size() == 3);
-  CHECK(answers[0]["status"] == "path");
-  CHECK(answers[0]["goal"][0] == "1/2");
-  CHECK(answers[1]["status"] == "invalid_goal");
-  CHECK(answers[2]["status"] == "invalid_start");
-  for (const char* bad : {"", "1 2 3\n", "[]", "[1]", "[{\"start\": [0,0,0]}]", "a b c d e f\n"}) {
-    const Run wrong = planner(folder, scene + " --queries " + folder.write("bad", bad));
-    CHECK(wrong.code == 2);
-    CHECK_THAT(wrong.err, Catch::Contains("bad"));
-  }
-  CHECK(planner(folder, scene + " --queries " + lines + " -o x.path").code == 2);
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 
 #include "apps/planner/free_space/free_space.h"
-#include "nef/program/expression/expression.h"
+#include "apps/program/expression/expression.h"
 
 namespace nef::planner::test {
 namespace {
@@ -19,7 +19,7 @@ Polyhedron set(const std::string& expression) { return evaluate_expression(expre
 TightPassage only_passage(const std::string& expression) {
   const FreeSpace free(set(expression));
   REQUIRE(free.passages().size() == 1);
-  CHECK(free.touching_rooms().empty());
+  CHECK(free.touching_volumes().empty());
   return free.passages().front();
 }
 
@@ -27,7 +27,7 @@ void check_bottleneck(const std::string& expression, int dimension, int piece, i
   CAPTURE(expression);
   const TightPassage passage = only_passage(expression);
   CHECK(passage.dimension == dimension);
-  CHECK(passage.rooms.size() == 2);
+  CHECK(passage.volumes.size() == 2);
   REQUIRE(passage.bottleneck);
   CHECK(passage.bottleneck->piece == piece);
   CHECK(passage.bottleneck->junction == junction);
@@ -63,7 +63,7 @@ TEST_CASE("the bottleneck of a mixed passage is the thinnest part that every way
 TEST_CASE("a passage that leads to one room only has no bottleneck") {
   const TightPassage passage = only_passage(kLeft + "+ polygon((2,0,1),(8,0,1),(8,2,1),(2,2,1))");
   CHECK(passage.dimension == 2);
-  CHECK(passage.rooms.size() == 1);
+  CHECK(passage.volumes.size() == 1);
   CHECK_FALSE(passage.bottleneck);
 }
 
@@ -71,22 +71,22 @@ TEST_CASE("rooms that only touch are listed with where they do") {
   const auto touching = [](const std::string& expression) {
     const FreeSpace free(set(expression));
     CHECK(free.passages().empty());
-    return std::vector<TouchingRooms>(free.touching_rooms().begin(), free.touching_rooms().end());
+    return std::vector<TouchingVolumes>(free.touching_volumes().begin(), free.touching_volumes().end());
   };
   // Along an edge with its two ends, and in a point.
-  const std::vector<TouchingRooms> edge = touching("box(0,0,0, 2,2,2) + box(2,2,0, 4,4,2)");
+  const std::vector<TouchingVolumes> edge = touching("box(0,0,0, 2,2,2) + box(2,2,0, 4,4,2)");
   REQUIRE(edge.size() == 1);
   CHECK(edge[0].dimension == 1);
   CHECK(edge[0].cells.size() == 3);
-  CHECK(edge[0].rooms.size() == 2);
-  const std::vector<TouchingRooms> point = touching("box(0,0,0, 2,2,2) + box(2,2,2, 4,4,4)");
+  CHECK(edge[0].volumes.size() == 2);
+  const std::vector<TouchingVolumes> point = touching("box(0,0,0, 2,2,2) + box(2,2,2, 4,4,4)");
   REQUIRE(point.size() == 1);
   CHECK(point[0].dimension == 0);
   CHECK(point[0].cells.size() == 1);
   // Three rooms around one point, two of them along an edge.
-  const std::vector<TouchingRooms> three = touching("box(0,0,0, 2,2,2) + box(2,2,0, 4,4,2) + box(0,2,2, 2,4,4)");
+  const std::vector<TouchingVolumes> three = touching("box(0,0,0, 2,2,2) + box(2,2,0, 4,4,2) + box(0,2,2, 2,4,4)");
   REQUIRE(three.size() == 1);
-  CHECK(three[0].rooms.size() == 3);
+  CHECK(three[0].volumes.size() == 3);
   // Open boxes do not touch; neither do boxes that share a wall, which are one room.
   CHECK(touching("interior(box(0,0,0, 2,2,2)) + interior(box(2,2,0, 4,4,2))").empty());
   CHECK(touching("box(0,0,0, 2,2,2) + box(2,0,0, 4,2,2)").empty());

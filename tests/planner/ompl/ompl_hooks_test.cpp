@@ -104,7 +104,7 @@ TEST_CASE("termination is respected, also while the free space is built") {
   CHECK(planner.getFreeSpace() != nullptr);
 }
 
-TEST_CASE("a goal that cannot be sampled is not recognized; starts in collision are invalid, no start is misuse") {
+TEST_CASE("a goal that cannot be sampled is not recognized, starts in collision are invalid, no start is misuse") {
   const World world("s1_tight_hole");
   TightPlanner planner(world.si);
   world.definition->setGoal(std::make_shared<Somewhere>(world.si));

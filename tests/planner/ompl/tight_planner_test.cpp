@@ -3,6 +3,8 @@
 // The OMPL classes: OMPL's own sanity checks, exact states, validity, samplers, proofs, and stock planners through
 // passages of width zero.
 #include <ompl/base/goals/GoalStates.h>
+#include <ompl/base/objectives/MaximizeMinClearanceObjective.h>
+#include <ompl/base/objectives/PathLengthOptimizationObjective.h>
 #include <ompl/geometric/planners/prm/PRM.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 #include <ompl/util/Console.h>
@@ -122,6 +124,44 @@ TEST_CASE("TightPlanner solves every solvable scene through OMPL, before and aft
   }
 }
 
+// Keeps what is written to OMPL's console.
+class KeptLog : public ompl::msg::OutputHandler {
+ public:
+  KeptLog() : previous_(ompl::msg::getOutputHandler()) {
+    ompl::msg::useOutputHandler(this);
+    ompl::msg::setLogLevel(ompl::msg::LOG_WARN);
+  }
+  ~KeptLog() override {
+    ompl::msg::useOutputHandler(previous_);
+    ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
+  }
+  KeptLog(const KeptLog&) = delete;
+  KeptLog& operator=(const KeptLog&) = delete;
+  void log(const std::string& line, ompl::msg::LogLevel /*level*/, const char* /*file*/, int /*line*/) override {
+    text += line + "\n";
+  }
+  std::string text;
+
+ private:
+  ompl::msg::OutputHandler* previous_;
+};
+
+TEST_CASE("an optimization objective other than length is said to be ignored") {
+  for (const bool clearance : {false, true}) {
+    const Problem problem(load("s7_one_box"));
+    TranslationPlanning setup(problem);
+    const auto& si = setup.getSpaceInformation();
+    if (clearance) {
+      setup.setOptimizationObjective(std::make_shared<ob::MaximizeMinClearanceObjective>(si));
+    } else {
+      setup.setOptimizationObjective(std::make_shared<ob::PathLengthOptimizationObjective>(si));
+    }
+    const KeptLog log;
+    CHECK(setup.solve(60.0) == ob::PlannerStatus::EXACT_SOLUTION);
+    CHECK((log.text.find("is ignored") != std::string::npos) == clearance);
+  }
+}
+
 TEST_CASE("TightPlanner proves infeasibility") {
   for (const char* name : {"s1_narrower", "s5_closed_box", "s10_capped", "s12_two_abutting_boxes", "s12_point_robot"}) {
     INFO(name);
@@ -182,7 +222,7 @@ TEST_CASE("the roadmap is exported as planner data") {
   REQUIRE(setup.solve(60.0));
   ob::PlannerData data(setup.getSpaceInformation());
   setup.getPlannerData(data);
-  CHECK(data.numVertices() > problem.free_space().zones().stations().size());
+  CHECK(data.numVertices() > problem.free_space().roadmap().portals().size());
   CHECK(data.numEdges() > 0);
   std::ostringstream text;
   data.printGraphML(text);

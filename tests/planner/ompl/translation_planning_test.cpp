@@ -122,7 +122,7 @@ TEST_CASE("a validity checker of the user's is asked as well") {
   CHECK(si->isValid(last.get()));
 }
 
-TEST_CASE("what the user's checker alone forbids is not proved; what the obstacles forbid is, whatever it says") {
+TEST_CASE("what the user's checker alone forbids is not proved, what the obstacles forbid is, whatever it says") {
   TranslationPlanning setup;
   make_wall(setup);
   setup.setStateValidityChecker(

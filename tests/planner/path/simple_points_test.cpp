@@ -8,8 +8,8 @@
 #include <cmath>
 #include <random>
 
+#include "apps/program/exact_json.h"
 #include "nef/construct/construct.h"
-#include "nef/program/exact_json.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
 

@@ -85,7 +85,7 @@ TEST_CASE("planner --path certifies poses that are turned", "[rigid]") {
   CHECK_THAT(blocked.out, Catch::Contains(R"("blocked_segment": 1)") && Catch::Contains(R"("status": "blocked")"));
   const Run refused = planner(folder, scene + " --tight --path " + good);
   CHECK(refused.code == 2);
-  CHECK_THAT(refused.err, Catch::Contains("leave out --tight"));
+  CHECK_THAT(refused.err, Catch::Contains("a path with rotations excludes --tight"));
 }
 
 TEST_CASE("Paths of .cfg scenes are those of the robot in its own file", "[rigid]") {

@@ -6,9 +6,9 @@
 
 #include "apps/planner/scene/shapes.h"
 #include "apps/planner/turning/turning_search.h"
+#include "apps/program/exact_json.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
-#include "nef/program/exact_json.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
 #include "tests/support/paths.h"
@@ -33,7 +33,7 @@ TEST_CASE("a problem with COLLADA meshes: turned upright, double faces once, the
   CHECK(independent_complaint(scene, solved.free_space().set(), *answer.path, true) == "");
 }
 
-TEST_CASE("one rotation for start and goal turns the robot once; two let it turn") {
+TEST_CASE("one rotation for start and goal turns the robot once, two let it turn") {
   const Scene turned = read_scene(problem("wall_turned.cfg"));
   CHECK(volume(turned.robot) == Rational(1));
   CHECK(nearest_double((*bounding_box(turned.robot))[1][0]) == Approx((std::cos(0.3) + std::sin(0.3)) / 2));
@@ -141,7 +141,7 @@ TEST_CASE("OMPL.app's .cfg with meshes: re-centred and turned once") {
   CHECK_THROWS_AS(read_scene(folder.write("e.cfg", "[problem]\nrobot=cube.off\n")), InputError);
 }
 
-TEST_CASE("meshes come in through assimp; double faces are kept once") {
+TEST_CASE("meshes come in through assimp, double faces are kept once") {
   const Folder folder;
   std::string text = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
   text += "element face 8\nproperty list uchar int vertex_indices\nend_header\n";

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "apps/planner/scene/scene.h"
 #include "apps/planner/scene/shapes.h"
 #include "nef/base/error.h"
 #include "tests/planner/command_helpers.h"
@@ -121,7 +122,7 @@ TEST_CASE("faces that meet in parts of edges, and slivers between them, close a 
   CHECK(equal(meaning.set, make_box({0, 0, 0}, {1, 1, 1})));
 }
 
-TEST_CASE("fins stay surfaces; open and ambiguous meshes do so as a whole") {
+TEST_CASE("fins stay surfaces, open and ambiguous meshes do so as a whole") {
   Triangles fin = box({0, 0, 0}, {2, 2, 2});
   append(fin, {{Rational3{2, 2, 2}, Rational3{2, 2, 0}, Rational3{4, 4, 1}}});
   const MeshMeaning with_fin = meaning_of(soup(double_sided(fin, 3)));
@@ -154,9 +155,7 @@ TEST_CASE("a floor and walls that share no vertices close together") {
   CHECK(equal(meaning_of(soup(walls)).set, unite(make_box({0, 0, 0}, {2, 2, 2}), floor)));
 }
 
-TEST_CASE("scenes say what a mesh was taken for") {
-  const Folder folder;
-  const Mesh mesh = soup(double_sided(box({0, 0, 0}, {1, 1, 1}), 7));
+std::string off_of(const Mesh& mesh) {
   std::string text = "OFF\n" + std::to_string(mesh.vertices.size()) + " " + std::to_string(mesh.face_count()) + " 0\n";
   for (const Rational3& v : mesh.vertices) {
     text += to_string(v[0]) + " " + to_string(v[1]) + " " + to_string(v[2]) + "\n";
@@ -166,14 +165,55 @@ TEST_CASE("scenes say what a mesh was taken for") {
     for (const std::uint32_t v : mesh.face(f)) text += " " + std::to_string(v);
     text += "\n";
   }
+  return text;
+}
+
+TEST_CASE("scenes say what a mesh was taken for") {
+  const Folder folder;
+  const Mesh mesh = soup(double_sided(box({0, 0, 0}, {1, 1, 1}), 7));
+  const std::string file = folder.write("twice.off", off_of(mesh));
   Messages messages;
-  CHECK(equal(read_shape_file(folder.write("twice.off", text), &messages), make_box({0, 0, 0}, {1, 1, 1})));
+  CHECK(equal(read_shape_file(file, scene_meshes(), &messages), make_box({0, 0, 0}, {1, 1, 1})));
   REQUIRE(messages.size() == 1);
   CHECK_THAT(messages[0], Catch::Contains("12 faces occur twice"));
   CHECK_THAT(messages[0], Catch::Contains("1 solid part "));
   Mesh bad = mesh;
   bad.corners[0] = 1000;
   CHECK_THROWS_AS(meaning_of(bad), InputError);
+  CHECK_THROWS_AS(read_shape_file(file, {.crossings = Crossings::kRefuse}, &messages), InputError);
+}
+
+TEST_CASE("scenes take meshes that cross themselves by the rule, and close holes if asked") {
+  const Folder folder;
+  const Polyhedron a = make_box({0, 0, 0}, {2, 2, 2});
+  const Polyhedron b = make_box({1, 1, 1}, {3, 3, 3});
+  Triangles two = box({0, 0, 0}, {2, 2, 2});
+  append(two, box({1, 1, 1}, {3, 3, 3}));
+  two.push_back({Rational3{0, 0, 0}, Rational3{0, 0, 2}, Rational3{1, 1, 1}});  // makes one part of both
+  two.push_back({Rational3{1, 1, 1}, Rational3{0, 0, 2}, Rational3{0, 0, 0}});
+  const std::string overlapping = folder.write("two.off", off_of(soup(two)));
+  Messages messages;
+  CHECK(equal(read_shape_file(overlapping, scene_meshes(), &messages), unite(a, b)));
+  REQUIRE(messages.size() == 1);
+  CHECK_THAT(messages[0], Catch::EndsWith("what is enclosed at least once was taken"));
+  const Polyhedron odd = read_shape_file(overlapping, {.crossings = Crossings::kOdd}, nullptr);
+  CHECK(equal(odd, regularize(symmetric_difference(a, b))));
+  CHECK_THROWS_WITH(read_shape_file(overlapping, {}, nullptr), Catch::Contains("union"));
+  // What is inside out must not vanish from a scene.
+  Triangles inside_out = box({1, 1, 1}, {3, 3, 3});
+  for (auto& triangle : inside_out) std::swap(triangle[1], triangle[2]);
+  append(inside_out, box({9, 0, 0}, {19, 9, 9}));
+  const std::string turned = folder.write("turned.off", off_of(soup(inside_out)));
+  messages.clear();
+  CHECK(equal(read_shape_file(turned, scene_meshes(), &messages), unite(b, make_box({9, 0, 0}, {19, 9, 9}))));
+  CHECK_THAT(messages.back(), Catch::Contains("parts of it are inside out"));
+  Triangles open = box({0, 0, 0}, {2, 2, 2});
+  open.pop_back();
+  const std::string torn = folder.write("open.off", off_of(soup(open)));
+  CHECK(volume(read_shape_file(torn, scene_meshes(), nullptr)) == Rational(0));
+  MeshOptions closing = scene_meshes();
+  closing.close_percent = 10;
+  CHECK(equal(read_shape_file(torn, closing, nullptr), a));
 }
 
 }  // namespace

@@ -7,8 +7,8 @@
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/command/turning_view.h"
 #include "apps/planner/turning/turning_search.h"
-#include "nef/program/exact_json.h"
-#include "nef/view/glb.h"
+#include "apps/program/exact_json.h"
+#include "apps/view/glb.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
 #include "tests/support/report_shape.h"
@@ -56,7 +56,7 @@ TEST_CASE("turning on the command line") {
   CHECK(planner(folder, scene + " --quiet -o " + folder.file("way.txt")).code == 0);
   CHECK(text_of(folder.file("way.txt")).substr(0, 10) == "-12 -1 0 0");
   for (const char* bad : {R"("w")", R"({"axis": "w"})", R"({"axis": [0,0,0]})", R"({"axis": [1,0]})",
-                          R"({"range": [5, 0]})", R"({"turn": 3})", R"({"range": [0, 400]})"}) {
+                          R"({"range": [5, 0]})", R"({"turn": 3})", R"({"range": [0, 40000]})"}) {
     const std::string text = R"J({"robot": "box(0,0,0,1,1,1)", "obstacles": [], "start": [0,0,0,0], "goal": [1,0,0,0],
       "rotation": )J" + std::string(bad) +
                              "}";

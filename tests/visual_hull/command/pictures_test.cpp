@@ -3,9 +3,9 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "apps/view/page.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
-#include "nef/view/page.h"
 #include "tests/support/paths.h"
 #include "tests/visual_hull/helpers.h"
 #include "tests/visual_hull/scratch.h"
@@ -56,7 +56,7 @@ TEST_CASE("A page has the hull, and each camera with its image where the camera 
   }
 }
 
-TEST_CASE("Views of polygons show their outline and lines of sight; corner origins shift the frame") {
+TEST_CASE("Views of polygons show their outline and lines of sight, corner origins shift the frame") {
   const Result letters = compute(read_scene(hull_data("letters/mpi.vsh")), {}, {});
   const auto layers = page_layers(letters, PixelOrigin::kCenter, {});
   CHECK(layers[1].photos.empty());
@@ -97,21 +97,6 @@ TEST_CASE("With the views compared, a page shows what the hull does not cover of
   const int before = yellow();
   result.hull = nef::intersect(result.hull, nef::make_box({-100, -100, 0}, {100, 100, 100}));  // the half is gone
   CHECK(yellow() > before + 1000);
-}
-
-TEST_CASE("A preview is four pictures of the hull") {
-  const Scratch s;
-  const Result letters = compute(read_scene(hull_data("letters/mpi.vsh")), {}, {});
-  write_preview(letters, s.folder() / "deep" / "down", {});
-  for (const char* name : {"hull.png", "hull_front.png", "hull_right.png", "hull_top.png"}) {
-    const cv::Mat picture = cv::imread((s.folder() / "deep" / "down" / name).string(), cv::IMREAD_GRAYSCALE);
-    REQUIRE_FALSE(picture.empty());
-    const double drawn = cv::countNonZero(picture < 250) / static_cast<double>(picture.total());
-    CHECK(drawn > 0.05);
-    CHECK(drawn < 0.95);
-  }
-  s.write("file", "in the way");
-  CHECK_THROWS_WITH(write_preview(letters, s.folder() / "file", {}), Catch::Contains("cannot make the directory"));
 }
 
 TEST_CASE("A page is one file with all images in it") {

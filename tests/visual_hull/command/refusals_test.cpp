@@ -52,7 +52,7 @@ TEST_CASE("Numbers beyond all measure are refused at once, with their place and 
 }
 
 // The words of other files are nobody's business: they may be passwords.
-TEST_CASE("Of a file that is not what its name says nothing is told; of others forty characters of a word") {
+TEST_CASE("Of a file that is not what its name says nothing is told, of others forty characters of a word") {
   const Scratch s;
   const std::string secret = "hunter2:x:0:0:hunter2:/home/hunter2:/bin/sh\nhunter2 again\n";
   for (const char* name : {"a.vsh", "a.json", "a.txt", "a.yml", "a.xml", "a.mat", "par.txt", "images.txt"}) {

@@ -268,7 +268,7 @@ TEST_CASE("The volume is a double with a bound for its error, unless the exact o
         nef::exact_rational(error));
 }
 
-TEST_CASE("Both ways write the same hull; the direct one is refused where it cannot be gone") {
+TEST_CASE("Both ways write the same hull, the direct one is refused where it cannot be gone") {
   const Scratch s;
   const std::string scene = data("elk/elk.json") + " --simplify 1 -q";
   const std::string direct = (s.folder() / "direct.nef").string();
@@ -325,11 +325,11 @@ TEST_CASE("A frame that cuts silhouettes is told, with the remedy") {
 TEST_CASE("Help names every option") {
   const std::string help = run("--help").output;
   for (const char* option :
-       {"--images",   "--silhouette", "--threshold",     "--channel",  "--invert",      "--pixel-origin", "--border",
-        "--min-area", "--simplify",   "--outer",         "--box",      "--output",      "--exact",        "--binary",
-        "--verify",   "--report",     "--overlay",       "--preview",  "--page",        "--threads",      "--json",
-        "--quiet",    "--version",    "Exit codes",      "--check",    "--up",          "--matrices",     "--turntable",
-        "--way",      "--suspects",   "--drop-suspects", "--at-least", "--exact-volume"}) {
+       {"--images",   "--silhouette",    "--threshold", "--channel",      "--invert",   "--pixel-origin", "--border",
+        "--min-area", "--simplify",      "--outer",     "--box",          "--output",   "--exact",        "--binary",
+        "--verify",   "--report",        "--overlay",   "--page",         "--threads",  "--json",         "--quiet",
+        "--version",  "Exit codes",      "--check",     "--up",           "--matrices", "--turntable",    "--way",
+        "--suspects", "--drop-suspects", "--at-least",  "--exact-volume", "--refine",   "--refined-scene"}) {
     CHECK_THAT(help, Contains(option));
   }
 }
@@ -354,11 +354,8 @@ TEST_CASE("What a format does not hold is told, unless nobody listens") {
   CHECK(exact.output.find("note") == std::string::npos);
 }
 
-TEST_CASE("Preview and page from the command line") {
+TEST_CASE("A page from the command line") {
   const Scratch s;
-  const Outcome outcome = run(data("letters/mpi.vsh") + " --preview " + (s.folder() / "p").string());
-  CHECK(outcome.code == 0);
-  CHECK_FALSE(cv::imread((s.folder() / "p" / "hull_top.png").string()).empty());
   const Outcome page = run(data("letters/mpi.vsh") + " --page " + (s.folder() / "x.htm").string());
   CHECK(page.code == 2);
   CHECK_THAT(page.output, Contains("the extension must be .html"));

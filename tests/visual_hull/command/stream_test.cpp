@@ -56,7 +56,7 @@ TEST_CASE("A stream gives the hull that each frame has by itself, on any number 
   const HullStream stream(scene, options);
   constexpr std::size_t kFrames = 4;
   std::vector<nef::Polyhedron> hulls(kFrames);
-  nef::parallel_for(kFrames, 3, {}, [&](std::size_t k, const nef::Monitor&) {
+  nef::parallel_for(kFrames, nef::Monitor().on_threads(3), [&](std::size_t k, const nef::Monitor&) {
     const std::vector<cv::Mat> masks = film_frame(scene, static_cast<int>(k));
     hulls[k] = stream.frame(masks).hull;
   });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Hulls of known solids. All comparisons are exact.
+// Hulls of known solids. All comparisons are exact, as are those of apps/visual_hull/verify/.
 #include <catch2/catch.hpp>
 #include <set>
 

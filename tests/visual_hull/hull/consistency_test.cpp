@@ -159,7 +159,7 @@ TEST_CASE("The comparison does not depend on the number of threads", "[threads]"
   const Result one = copy.compare();
   std::vector<ComparedView> views;
   for (const ViewResult& view : one.views) views.push_back({&view.camera, &view.silhouette.region});
-  const Consistency two = compare_views(views, one.box, 2, {});
+  const Consistency two = compare_views(views, one.box, nef::Monitor().on_threads(2));
   REQUIRE(two.views.size() == one.consistency->views.size());
   for (std::size_t i = 0; i < two.views.size(); ++i) {
     CHECK(two.views[i].score == one.consistency->views[i].score);
@@ -179,7 +179,7 @@ TEST_CASE("Volumes that one view alone rejects") {
   const Silhouette all = make_silhouette({square}, "all");
   const Silhouette half = make_silhouette({rectangle(-1 / far, -1 / far, 0, 1 / far)}, "half");
   const std::vector<ComparedView> views{{&along_x, &all}, {&along_y, &all}, {&along_z, &half}};
-  const Consistency found = compare_views(views, cube(2), 1, {});
+  const Consistency found = compare_views(views, cube(2), {});
   CHECK(found.views[2].removed == Approx(4).epsilon(0.05));
   // Along x every line of sight meets the half that is left, along y every second one.
   CHECK(found.views[0].residual == Approx(0).margin(0.01));
@@ -197,14 +197,14 @@ TEST_CASE("Smallest sets of views without a common point") {
   const Silhouette middle = make_silhouette({square}, "middle");
   const Silhouette away = make_silhouette({aside}, "away");
   const std::vector<ComparedView> views{{&a, &middle}, {&b, &middle}, {&c, &away}};
-  const auto sets = views_without_common_point(views, cube(20), 5, 1, {});
+  const auto sets = views_without_common_point(views, cube(20), 5, {});
   REQUIRE_FALSE(sets.empty());
   for (const auto& set : sets) {
     CHECK(set.size() == 2);
     CHECK(set.back() == 2);  // it is the third that looks elsewhere
   }
   const std::vector<ComparedView> agreeing{{&a, &middle}, {&b, &middle}, {&c, &middle}};
-  CHECK(views_without_common_point(agreeing, cube(20), 5, 1, {}).empty());
+  CHECK(views_without_common_point(agreeing, cube(20), 5, {}).empty());
 
   const Result empty = compute(scene_of({{a, {square}}, {b, {square}}, {c, {aside}}}, cube(20)), {}, {});
   REQUIRE(empty.vanished.has_value());

@@ -35,7 +35,7 @@ std::optional<WorldBox> enclosing_box(const std::vector<TestView>& views) {
 std::optional<nef::Polyhedron> directly(const std::vector<TestView>& views, const WorldBox& box) {
   std::vector<DirectView> inputs;
   for (const TestView& view : views) inputs.push_back({&view.camera, &view.silhouette});
-  return direct_hull(inputs, box, 1, {});
+  return direct_hull(inputs, box, {});
 }
 
 nef::Polyhedron by_cones(const std::vector<TestView>& views, const WorldBox& box) {
@@ -193,7 +193,7 @@ TEST_CASE("The views of a real scene go the direct way, on any number of threads
   CHECK_FALSE(cones.direct);
   CHECK(nef::equal(direct.hull, cones.hull));
   options.way = Way::kBest;
-  options.threads = 3;
+  options.monitor = nef::Monitor().on_threads(3);
   const Result threads = compute(scene, folder, options);
   CHECK(nef::counts(threads.hull).vertices == nef::counts(direct.hull).vertices);
   CHECK(nef::equal(direct.hull, threads.hull));

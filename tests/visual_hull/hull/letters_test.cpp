@@ -87,7 +87,7 @@ TEST_CASE("Any number of threads gives the same complex", "[threads]") {
   options.way = Way::kCones;
   const std::filesystem::path folder = source_folder() + "/data/visual_hull/eight";
   const Result one = compute(scene, folder, options);
-  options.threads = 3;
+  options.monitor = nef::Monitor().on_threads(3);
   const Result three = compute(scene, folder, options);
   const nef::Complex& a = one.hull.complex();
   const nef::Complex& b = three.hull.complex();

@@ -6,10 +6,25 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "tests/support/next_to_zero.h"
+
 namespace visual_hull {
 namespace {
 
 constexpr EdgeView::Window kWindow{{10, 20}, {1, 1}};
+
+// An edge that runs right across the window.
+struct EdgeAcross {
+  Point2 from{0, 20};
+  Point2 to{20, 20};
+  ViewingEdge edge;
+  EdgeAcross() {
+    edge.from = &from;
+    edge.to = &to;
+  }
+  EdgeAcross(const EdgeAcross&) = delete;  // the edge points into it
+  EdgeAcross& operator=(const EdgeAcross&) = delete;
+};
 
 PartFacet facet_of(const Double3& normal, double offset) {
   PartFacet facet;
@@ -53,11 +68,7 @@ std::vector<Double3> vertices_left(const PartBox& box, const PartFacet& plane) {
 TEST_CASE("A facet that misses what a cut leaves of a part") {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform(-1, 1);
-  const Point2 from(0, 20);
-  const Point2 to(20, 20);
-  ViewingEdge edge;
-  edge.from = &from;
-  edge.to = &to;
+  const EdgeAcross edge;
   std::size_t missed = 0;
   std::size_t met = 0;
   for (int round = 0; round < 20000; ++round) {
@@ -74,7 +85,7 @@ TEST_CASE("A facet that misses what a cut leaves of a part") {
     };
     const Double3 normal = vector(1);
     const PartFacet plane = through(normal);
-    const std::optional<PartCut> cut = PartCut::make(3, plane, edge, box, kWindow);
+    const std::optional<PartCut> cut = PartCut::make(3, plane, edge.edge, box, kWindow);
     if (!cut) continue;
     CHECK(plane.height(cut->point()) > 0);
     // Nearly parallel, as neighbours on a surface are.
@@ -94,6 +105,56 @@ TEST_CASE("A facet that misses what a cut leaves of a part") {
   }
   CHECK(missed > 3000);
   CHECK(met > 3000);
+}
+
+// The other plane passes through a point of the cut's plane on an edge of the part, and what is left of the part is
+// beyond it but for that point; then it is moved by next to nothing.
+TEST_CASE("A facet that touches what a cut leaves of a part, or nearly does", "[bounds]") {
+  nef::test::NextToZero random(37);
+  const EdgeAcross edge;
+  std::size_t missed = 0;
+  std::size_t met = 0;
+  for (int round = 0; round < 20000; ++round) {
+    const unsigned bits = 6 + static_cast<unsigned>(random.below(46));
+    const double unit = std::ldexp(1.0, static_cast<int>(bits));
+    PartBox box;
+    Rational3 p;
+    Rational3 slope;  // is not below 0 in the part, and 0 at p
+    const std::size_t free = random.below(3);
+    for (std::size_t k = 0; k < 3; ++k) {
+      box.middle[k] = nef::nearest_double(random.number(bits));
+      box.half[k] = unit * nef::nearest_double(random.share());
+      const int end = random.below(2) == 0 ? 1 : -1;
+      const Rational reach = nef::exact_rational(box.half[k]) * end;
+      p[k] = nef::exact_rational(box.middle[k]) + (k == free ? reach * random.share() : reach);
+      if (k != free) slope[k] = -end * random.share();
+    }
+    // A plane n . (x - p) + shift in doubles, and what that is off by.
+    const auto facet_through_p = [&](const Rational3& n, const Rational& shift) {
+      const Rational exact = shift - n[0] * p[0] - n[1] * p[1] - n[2] * p[2];
+      PartFacet facet;
+      facet.offset = nef::nearest_double(exact);
+      double size = std::abs(facet.offset);
+      for (std::size_t k = 0; k < 3; ++k) {
+        facet.normal[k] = nef::nearest_double(n[k]);
+        size += std::abs(facet.normal[k]) * (std::abs(box.middle[k]) + box.half[k]);
+      }
+      facet.error = size * 0x1p-48;  // part_cut.cpp derives that this is enough
+      return facet;
+    };
+    const Rational3 normal = random.point(8);
+    const Rational factor = random.share() * 3;
+    const Rational shift = (random.below(4) == 0 ? Rational(1, 16) : random.tiny()) * nef::exact_rational(unit);
+    const std::optional<PartCut> cut = PartCut::make(3, facet_through_p(normal, 0), edge.edge, box, kWindow);
+    if (!cut) continue;
+    Rational3 other = slope;
+    for (std::size_t k = 0; k < 3; ++k) other[k] += factor * normal[k];
+    const bool misses = cut->misses(facet_through_p(other, shift));
+    if (shift <= 0) CHECK_FALSE(misses);
+    ++(misses ? missed : met);
+  }
+  CHECK(missed > 1000);
+  CHECK(met > 1000);
 }
 
 TEST_CASE("An edge that ends in the window, or a plane that may pass beside the part, is no cut") {

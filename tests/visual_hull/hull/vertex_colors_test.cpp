@@ -164,7 +164,7 @@ TEST_CASE("A box of six colours, and one that hides a part of another") {
     options.silhouette.simplify.tolerance = 1;
     const Result result = compute(read_scene(file), scratch.folder(), options);
     const Painted painted = grid_on(boxes);
-    const VertexColors one = vertex_colors(painted.mesh, result.views, result.origin, 1, {});
+    const VertexColors one = vertex_colors(painted.mesh, result.views, result.origin, {});
     REQUIRE(one.colors.size() == painted.truth.size());
     std::size_t seen = 0;
     std::size_t right = 0;
@@ -178,7 +178,7 @@ TEST_CASE("A box of six colours, and one that hides a part of another") {
     CHECK(seen > painted.truth.size() / 2);
     // On the edges of the boxes pixels of two sides are mixed; they are a quarter of the places.
     CHECK(right >= seen * 72 / 100);
-    CHECK(vertex_colors(painted.mesh, result.views, result.origin, 3, {}).colors == one.colors);
+    CHECK(vertex_colors(painted.mesh, result.views, result.origin, nef::Monitor().on_threads(3)).colors == one.colors);
   }
 }
 

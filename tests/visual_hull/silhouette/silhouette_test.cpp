@@ -62,7 +62,7 @@ TEST_CASE("A channel separates what brightness does not") {
   CHECK_THROWS_AS(make_mask(photo, options), nef::InputError);
 }
 
-TEST_CASE("Specks go by their area; an outer silhouette keeps its islands") {
+TEST_CASE("Specks go by their area, an outer silhouette keeps its islands") {
   cv::Mat mask(40, 40, CV_8U, cv::Scalar(0));
   mask(cv::Rect(5, 5, 20, 20)).setTo(255);
   mask(cv::Rect(8, 8, 2, 2)).setTo(0);      // a hole of 4

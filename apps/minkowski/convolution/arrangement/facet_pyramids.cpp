@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A facet contains a point if its plane does and the point is on no side's outer side. Doubles decide this for most
+// facets; for the others, each side in doubt becomes a plane across the facet, and signs are exact. A point next to
+// another one in a direction is found by trying ever shorter steps until no other facet, side or corner is in between.
 #include "apps/minkowski/convolution/arrangement/facet_pyramids.h"
 
 #include <algorithm>
@@ -75,6 +79,30 @@ bool FacetPyramids::goes_on(const FacetAtPoint& at, const Direction& direction) 
   });
 }
 
+// A facet's inside is one item, and so is each side, which ends at corners even where it goes straight on: marks may
+// change there.
+bool FacetPyramids::is_same_item(const FacetAtPoint& at, PointId from, PointId to) {
+  FacetAtPoint there;
+  if (!locate(at.facet, to, there)) return false;
+  const PlaneTable& planes = facets_.planes;
+  const PointTable& points = facets_.points;
+  for (const PlaneId side : there.sides) {
+    if (!side.valid()) continue;
+    if (side != at.sides[0] && side != at.sides[1]) return false;
+    const auto order = [&](PointId p, PointId q) {
+      int sign = 0;
+      for (int axis = 0; axis < 3 && sign == 0; ++axis) sign = compare_coordinate(points, p, q, axis, monitor_);
+      return sign;
+    };
+    for (const std::uint32_t corner : facets_.ring(at.facet)) {
+      const PointId c{corner};
+      if (side_of_plane(planes, side, points, c, monitor_) != 0) continue;
+      if (order(from, c) == order(from, to) && order(c, to) != order(to, from)) return false;
+    }
+  }
+  return true;
+}
+
 bool FacetPyramids::holds(std::uint32_t facet, PointId point) {
   FacetAtPoint unused;
   return locate(facet, point, unused);
@@ -103,9 +131,9 @@ Rational3 FacetPyramids::point_towards(PointId from, const Direction& direction)
     Rational3 x;
     for (std::size_t i = 0; i < 3; ++i) x[i] = at[i] + factor * d[i];
     const PointId there = facets_.points.push(x);
-    // Facets are convex: those that do not go on are not met again, and of the others the point must be one.
+    // Facets are convex: those that do not go on are not met again.
     const bool clear = sees(from, there, here) && std::all_of(here.begin(), here.end(), [&](const FacetAtPoint& f) {
-                         return !goes_on(f, direction) || holds(f.facet, there);
+                         return !goes_on(f, direction) || is_same_item(f, from, there);
                        });
     facets_.points.pop();
     if (clear) return x;

@@ -40,7 +40,8 @@ class FacetPyramids {
     return side_plane_[facets_.begin[facet] + side];
   }
 
-  /// A point in a direction from another one, so near that all points between are on the same facets.
+  /// A point in a direction from another one, so near that it and all points between are in the same items: insides and
+  /// sides of facets, or none.
   Rational3 point_towards(PointId from, const Direction& direction);
 
   /// True if an open segment between two points surely meets none but the given facets. Exact where doubles can not
@@ -49,6 +50,8 @@ class FacetPyramids {
 
  private:
   [[nodiscard]] bool locate(std::uint32_t facet, PointId point, FacetAtPoint& result);
+  /// True if a facet goes on from a point to another one, and that and all between are in one item of it.
+  [[nodiscard]] bool is_same_item(const FacetAtPoint& at, PointId from, PointId to);
   [[nodiscard]] bool goes_on(const FacetAtPoint& at, const Direction& direction) const;
 
   ConvolutionFacets& facets_;

@@ -171,6 +171,8 @@ std::optional<FacetSegment> SegmentFinder::find(std::uint32_t f, std::uint32_t g
   if (!s) return std::nullopt;
   s->f = f;
   s->g = g;
+  s->f_is_behind = !on_f.above;
+  s->g_is_behind = !on_g.above;
   // In the plane across the segment, facets are lines through a point or rays that end there. A region in front of both
   // has one of each as its sides: a ray in front of the other line, or two rays each of which is in front of the
   // other (a valley), or behind (a ridge).

@@ -32,6 +32,8 @@ struct FacetSegment : Segment {  // f and g are the facets
   bool faces_a_region = true;
   /// True if neither facet passes through the other here: both end at the segment.
   bool is_side_of_both = false;
+  /// True if nothing of f is in front of the plane of g, and the other way round.
+  bool f_is_behind = false, g_is_behind = false;
 };
 
 /// Finds the segments. Not to be shared between threads.

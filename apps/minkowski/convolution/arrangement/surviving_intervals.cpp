@@ -2,9 +2,10 @@
 //
 // 1. A tree of boxes gives pairs of facets, and `SegmentFinder` their segments.
 // 2. Each segment is cut where a facet meets both of its facets; cuts that are not surely apart are one cut.
-// 3. At a cut, the part of the segment that a facet has behind it is gone.
+// 3. At a cut, the part of the segment that a facet has behind it is gone. So are parts in cubes that are surely
+// inside.
 // 4. Three facets that cross link the intervals in front of all three; a queue removes those that are linked to a gone
-//    one (`peel`).
+//    one (`remove_linked`).
 //
 // Steps 1 and 2 work on blocks of pairs and segments, on several threads, and results are put together in order.
 #include "apps/minkowski/convolution/arrangement/surviving_intervals.h"
@@ -13,6 +14,8 @@
 #include <cmath>
 #include <optional>
 
+#include "apps/minkowski/convolution/arrangement/linked_intervals.h"
+#include "apps/minkowski/convolution/arrangement/meeting_facets.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/mesh/edge_order.h"
@@ -20,7 +23,6 @@
 namespace nef::minkowski {
 namespace {
 
-using Triple = std::array<std::uint32_t, 3>;
 using Sides = std::unordered_map<std::uint64_t, std::vector<std::uint32_t>>;  // the facets at each, by its key
 
 // Where a facet meets a segment.
@@ -28,38 +30,7 @@ struct Event {
   Interval at;
   std::uint32_t facet = kNone;
   int front = 0;  // the facet surely crosses, its front towards the end (1) or the start (-1) of the segment; else 0
-};
-
-// An interval at a point where three facets cross.
-struct Link {
-  Triple at;
-  std::uint32_t interval = kNone;  // kNone: it is gone
-  bool smooth = false;             // two of the facets are in one plane and continue each other
-  bool operator<(const Link& other) const { return at < other.at; }
-};
-
-// Which facets a facet has a segment with.
-class MeetingFacets {
- public:
-  MeetingFacets(std::size_t facets, std::span<const FacetSegment> segments) : first_(facets + 1, 0) {
-    for (const FacetSegment& s : segments) {
-      ++first_[s.f + 1];
-      ++first_[s.g + 1];
-    }
-    for (std::size_t f = 1; f < first_.size(); ++f) first_[f] += first_[f - 1];
-    meeting_.resize(first_.back());
-    std::vector<std::uint32_t> at(first_.begin(), first_.end() - 1);
-    for (const FacetSegment& s : segments) {
-      meeting_[at[s.f]++] = s.g;
-      meeting_[at[s.g]++] = s.f;
-    }
-  }
-  [[nodiscard]] std::span<const std::uint32_t> operator()(std::uint32_t f) const {
-    return std::span(meeting_).subspan(first_[f], first_[f + 1] - first_[f]);
-  }
-
- private:
-  std::vector<std::uint32_t> first_, meeting_;
+  bool is_at_end = false;  // the facet surely holds no point of the segment but maybe one of its ends
 };
 
 // What comes of cutting a run of segments; numbers of cuts and intervals, and places in `cutting`, count from its
@@ -69,7 +40,7 @@ struct CutSegments {
   std::vector<std::uint32_t> cutting;
   std::vector<SurvivingInterval> intervals;
   std::vector<std::array<std::uint32_t, 2>> doubtful;
-  std::vector<Link> links;
+  std::vector<IntervalLink> links;
 };
 
 // Cuts segments. Not to be shared between threads.
@@ -78,13 +49,15 @@ class SegmentCutter {
   // All must outlive the object.
   SegmentCutter(const ConvolutionFacets& facets, const RoundedFacets& rounded,
                 const std::vector<FacetSegment>& segments, const Sides& at_side, const MeetingFacets& meeting,
-                bool passages)
+                const SumMembership& membership, bool passages, const Monitor& monitor)
       : facets_(facets),
         rounded_(rounded),
         segments_(segments),
         at_side_(at_side),
         meeting_(meeting),
-        passages_(passages) {}
+        membership_(membership),
+        passages_(passages),
+        monitor_(monitor) {}
 
   CutSegments run(std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) cut(static_cast<std::uint32_t>(i));
@@ -117,8 +90,9 @@ class SegmentCutter {
     return place;
   }
 
-  // Where facet h meets a segment, if it may beyond the segment's ends.
-  [[nodiscard]] std::optional<Event> event(const FacetSegment& s, std::uint32_t h) const {
+  // Where facet h meets a segment, if it may beyond the segment's ends. One of the segment's facets has nothing in
+  // front of h if `is_behind`: then the segment has at most one end in the plane of h, or all of it.
+  [[nodiscard]] std::optional<Event> event(const FacetSegment& s, std::uint32_t h, bool is_behind) const {
     const FormOnSegment form(rounded_.plane(h), s);
     const double last = form.at + form.slope;
     const bool start_off = std::fabs(form.at) > form.error;
@@ -129,27 +103,25 @@ class SegmentCutter {
       const bool on_start = ends_on(s.ends[0], h);
       const bool on_end = ends_on(s.ends[1], h);
       if ((on_start && on_end) || (on_start && end_off) || (on_end && start_off)) return std::nullopt;
-      return touching(s, h, form);
+      return touching(s, h, form, is_behind && (start_off || end_off));
     }
     const double t = form.at / (form.at - last);
     // Both ends are surely off the plane, so 0 < t < 1: the forms' errors move it by less than twice their part of the
     // slope, and what rounds in it is a few units of 2^-53, a thousandth of the last term.
     const double doubt = form.error / std::fabs(form.slope) * 2 + 1e-13;
-    Double3 x{};
     double reach = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      x[i] = s.from[i] + t * (s.to[i] - s.from[i]);
-      reach = std::max(reach, std::fabs(s.to[i] - s.from[i]));
-    }
-    const int place = place_in(h, x, s.error + doubt * reach + rounded_.corner_error());
+    for (std::size_t i = 0; i < 3; ++i) reach = std::max(reach, std::fabs(s.to[i] - s.from[i]));
+    const int place = place_in(h, s.at(t), s.error + doubt * reach + rounded_.corner_error());
     if (place < 0) return std::nullopt;
     return Event{{t - doubt, t + doubt}, h, place == 0 ? 0 : form.slope > 0 ? 1 : -1};
   }
 
   // The same where the segment may be in the plane of h or end there.
-  [[nodiscard]] std::optional<Event> touching(const FacetSegment& s, std::uint32_t h, const FormOnSegment& form) const {
+  [[nodiscard]] std::optional<Event> touching(const FacetSegment& s, std::uint32_t h, const FormOnSegment& form,
+                                              bool is_at_end) const {
     Event event;
     event.facet = h;
+    event.is_at_end = is_at_end;
     keep_below(event.at, form.at, form.slope, form.error, Rounding::kOutwards);
     keep_below(event.at, -form.at, -form.slope, form.error, Rounding::kOutwards);
     for (const RoundedSide& side : rounded_.sides(h)) {
@@ -165,19 +137,19 @@ class SegmentCutter {
   void find_events(const FacetSegment& s) {
     events_.clear();
     const Box box = s.box();
-    const auto look_at = [&](std::uint32_t h) {
-      if (!box.overlaps(rounded_.box(h))) return;
-      if (const std::optional<Event> e = event(s, h)) events_.push_back(*e);
+    const auto look_at = [&](const MeetingFacets::Other& h) {
+      if (!box.overlaps(rounded_.box(h.facet))) return;
+      if (const std::optional<Event> e = event(s, h.facet, h.is_behind)) events_.push_back(*e);
     };
     // What meets the segment meets both facets; but facets in the plane of one have segments with the other one only.
     const bool few_on_f = meeting_(s.f).size() < meeting_(s.g).size();
     const std::uint32_t few = few_on_f ? s.f : s.g;
     const std::uint32_t many = few_on_f ? s.g : s.f;
-    for (const std::uint32_t h : meeting_(few)) {
-      if (h != many) look_at(h);
+    for (const MeetingFacets::Other& h : meeting_(few)) {
+      if (h.facet != many) look_at(h);
     }
-    for (const std::uint32_t h : meeting_(many)) {
-      if (h != few && facets_.plane[h].row() == facets_.plane[few].row()) look_at(h);
+    for (const MeetingFacets::Other& h : meeting_(many)) {
+      if (h.facet != few && facets_.plane[h.facet].row() == facets_.plane[few].row()) look_at(h);
     }
     std::sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.at.low < b.at.low; });
   }
@@ -186,7 +158,7 @@ class SegmentCutter {
   struct Side {
     bool gone = false;
     bool linked = false;
-    Link link;
+    IntervalLink link;
   };
   struct Cut {
     Interval at;
@@ -216,7 +188,7 @@ class SegmentCutter {
       if (!is_plain(s, cuts_[i])) result_.doubtful.push_back({segment, number_of(i)});
     }
     for (std::size_t i = 0; s.faces_a_region && i < cuts_.size(); ++i) {
-      if (!may_hold_intervals(cuts_[i])) continue;
+      if (!may_hold_intervals(cuts_[i]) || is_covered(s, cuts_[i])) continue;
       const std::uint32_t here = number_of(i);
       result_.intervals.push_back({segment, here, here});
     }
@@ -224,7 +196,7 @@ class SegmentCutter {
       Side& after = cuts_[i].side[1];
       Side& before = cuts_[i + 1].side[0];
       std::uint32_t interval = kNone;
-      if (s.faces_a_region && !after.gone && !before.gone) {
+      if (s.faces_a_region && !after.gone && !before.gone && !is_covered(s, cuts_[i], cuts_[i + 1])) {
         interval = static_cast<std::uint32_t>(result_.intervals.size());
         const std::uint32_t from = number_of(i);
         result_.intervals.push_back({segment, from, number_of(i + 1)});
@@ -237,13 +209,54 @@ class SegmentCutter {
     }
   }
 
+  // True if all that is between the points of a cut is surely in the inside of the sum.
+  [[nodiscard]] bool is_covered(const FacetSegment& s, const Cut& cut) {
+    const std::array<Double3, 2> ends = {s.at(std::max(cut.at.low, 0.0)), s.at(std::min(cut.at.high, 1.0))};
+    return facets_.covered.cover(ends, s.error) || is_in_inside(ends, s.error);
+  }
+
+  // The same for the interval between two cuts, which nothing cuts: if one of its points is inside, all are.
+  [[nodiscard]] bool is_covered(const FacetSegment& s, const Cut& from, const Cut& to) {
+    if (!(from.at.high < to.at.low)) return false;
+    const double first = std::max(from.at.high, 0.0);
+    const Double3 middle = s.at(first + kShare * (std::min(to.at.low, 1.0) - first));
+    return facets_.covered.cover({&middle, 1}, s.error) || is_in_inside({middle, middle}, s.error);
+  }
+
+  // At the middle parts with faces in parallel planes may touch.
+  static constexpr double kShare = 0.381966;
+
+  // True if A and x - B surely have their insides in common for all x of a segment, whose ends are within `error`.
+  [[nodiscard]] bool is_in_inside(const std::array<Double3, 2>& ends, double error) {
+    Approximation3 x;
+    for (std::size_t i = 0; i < 3; ++i) {
+      // The rounding of the middle and of the half is far below 8u of both ends.
+      x[i].value = (ends[0][i] + ends[1][i]) / 2;
+      x[i].error =
+          std::fabs(ends[1][i] - ends[0][i]) / 2 + error + 8 * kUnit * (std::fabs(ends[0][i]) + std::fabs(ends[1][i]));
+    }
+    // A search that finds nothing takes several times as long as one that does, and as what an interval costs that is
+    // kept: where not most find something, only what was found before is tried. What is done with a chunk of segments
+    // does not depend on threads.
+    constexpr std::size_t kFree = 4;
+    const bool search = searches_ < kFree || 4 * found_ >= 3 * searches_;
+    const bool inside = membership_.surely_in_inside(x, recent_, search, monitor_);
+    searches_ += search ? 1 : 0;
+    found_ += search && inside ? 1 : 0;
+    return inside;
+  }
+
   // True if what lies between the points of a cut need not be behind a facet. It is, in whatever order they come, if
-  // all facets cross the segment the same way.
+  // all facets cross the segment the same way. Facets that hold an end at most cut nothing off.
   [[nodiscard]] bool may_hold_intervals(const Cut& cut) const {
     if (cut.is_end[0] && cut.is_end[1]) return true;
     if (cut.first == cut.last) return false;
     const int front = events_[cut.first].front;
-    if (cut.is_end[0] || cut.is_end[1] || front == 0) return true;
+    if (cut.is_end[0] || cut.is_end[1]) {
+      return !std::all_of(events_.begin() + cut.first, events_.begin() + cut.last,
+                          [](const Event& e) { return e.is_at_end; });
+    }
+    if (front == 0) return true;
     for (std::uint32_t i = cut.first; i < cut.last; ++i) {
       if (events_[i].front != front) return true;
     }
@@ -320,8 +333,8 @@ class SegmentCutter {
     cut.side[side].link.smooth = facets_.plane[beyond] == facets_.plane[end.facet];
   }
 
-  static Triple sorted(std::uint32_t f, std::uint32_t g, std::uint32_t h) {
-    Triple t = {f, g, h};
+  static std::array<std::uint32_t, 3> sorted(std::uint32_t f, std::uint32_t g, std::uint32_t h) {
+    std::array<std::uint32_t, 3> t = {f, g, h};
     std::sort(t.begin(), t.end());
     return t;
   }
@@ -331,7 +344,11 @@ class SegmentCutter {
   const std::vector<FacetSegment>& segments_;
   const Sides& at_side_;
   const MeetingFacets& meeting_;
+  const SumMembership& membership_;
   bool passages_;
+  Monitor monitor_;
+  IntersectionQuery::Crossings recent_;
+  std::size_t searches_ = 0, found_ = 0;
   CutSegments result_;
   // Of the segment at hand.
   std::vector<Event> events_;
@@ -363,7 +380,7 @@ void add_segments_of(std::span<const FacetPair> pairs, const ConvolutionFacets& 
                      const IntervalOptions& options, FoundSegments& result) {
   constexpr std::size_t kChunk = 2048;
   std::vector<FoundSegments> found((pairs.size() + kChunk - 1) / kChunk);
-  parallel_for(found.size(), options.threads, options.monitor, [&](std::size_t chunk, const Monitor& own) {
+  parallel_for(found.size(), options.monitor, [&](std::size_t chunk, const Monitor& own) {
     SegmentFinder finder(facets, rounded, own);
     for (const auto& [f, g] : pairs.subspan(chunk * kChunk, std::min(kChunk, pairs.size() - chunk * kChunk))) {
       if (std::optional<FacetSegment> s = finder.find(f, g)) found[chunk].segments.push_back(*s);
@@ -397,7 +414,7 @@ void append(const CutSegments& part, CutSegments& all) {
   all.cutting.insert(all.cutting.end(), part.cutting.begin(), part.cutting.end());
   for (const SurvivingInterval& i : part.intervals) all.intervals.push_back({i.segment, i.from + cuts, i.to + cuts});
   for (const auto& [segment, cut] : part.doubtful) all.doubtful.push_back({segment, cut + cuts});
-  for (Link link : part.links) {
+  for (IntervalLink link : part.links) {
     if (link.interval != kNone) link.interval += intervals;
     all.links.push_back(link);
   }
@@ -405,7 +422,7 @@ void append(const CutSegments& part, CutSegments& all) {
 
 CutSegments cut_segments(const ConvolutionFacets& facets, const RoundedFacets& rounded,
                          const std::vector<FacetSegment>& segments, const Sides& at_side,
-                         const IntervalOptions& options) {
+                         const SumMembership& membership, const IntervalOptions& options) {
   constexpr std::size_t kChunk = 256;
   constexpr std::size_t kBlock = 16 * kChunk;
   const MeetingFacets meeting(facets.size(), segments);
@@ -414,58 +431,14 @@ CutSegments cut_segments(const ConvolutionFacets& facets, const RoundedFacets& r
     options.poll(static_cast<double>(block) / static_cast<double>(segments.size()));
     const std::size_t end = std::min(segments.size(), block + kBlock);
     std::vector<CutSegments> parts((end - block + kChunk - 1) / kChunk);
-    parallel_for(parts.size(), options.threads, options.monitor, [&](std::size_t chunk, const Monitor&) {
+    parallel_for(parts.size(), options.monitor, [&](std::size_t chunk, const Monitor& own) {
       const std::size_t first = block + chunk * kChunk;
-      parts[chunk] = SegmentCutter(facets, rounded, segments, at_side, meeting, options.passages)
+      parts[chunk] = SegmentCutter(facets, rounded, segments, at_side, meeting, membership, options.passages, own)
                          .run(first, std::min(end, first + kChunk));
     });
     for (const CutSegments& part : parts) append(part, result);
   }
   return result;
-}
-
-// What is linked to an interval that is gone, goes.
-void peel(std::vector<Link> links, std::vector<SurvivingInterval>& intervals) {
-  std::sort(links.begin(), links.end());
-  std::vector<std::array<std::uint32_t, 2>> at(intervals.size(), {kNone, kNone});  // first link of a triple
-  std::vector<std::uint32_t> gone;
-  std::vector<bool> is_gone(intervals.size(), false);
-  const auto go = [&](std::uint32_t first) {
-    for (std::size_t i = first; i < links.size() && links[i].at == links[first].at; ++i) {
-      const std::uint32_t interval = links[i].interval;
-      if (interval == kNone || is_gone[interval]) continue;
-      is_gone[interval] = true;
-      gone.push_back(interval);
-    }
-  };
-  for (std::uint32_t first = 0; first < links.size();) {
-    std::uint32_t end = first;
-    bool broken = false;
-    for (; end < links.size() && links[end].at == links[first].at; ++end) {
-      broken = broken || links[end].interval == kNone;
-    }
-    if (end - first == (links[first].smooth ? 2U : 3U)) {
-      for (std::uint32_t i = first; i < end; ++i) {
-        if (links[i].interval == kNone) continue;
-        std::array<std::uint32_t, 2>& two = at[links[i].interval];
-        (two[0] == kNone ? two[0] : two[1]) = first;
-      }
-      if (broken) go(first);
-    }
-    first = end;
-  }
-  while (!gone.empty()) {
-    const std::uint32_t interval = gone.back();
-    gone.pop_back();
-    for (const std::uint32_t first : at[interval]) {
-      if (first != kNone) go(first);
-    }
-  }
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < intervals.size(); ++i) {
-    if (!is_gone[i]) intervals[kept++] = intervals[i];
-  }
-  intervals.resize(kept);
 }
 
 }  // namespace
@@ -478,11 +451,11 @@ std::uint64_t side_key(const ConvolutionFacets& facets, std::uint32_t facet, std
 }
 
 SurvivingIntervals surviving_intervals(const ConvolutionFacets& facets, const RoundedFacets& rounded,
-                                       const IntervalOptions& options) {
+                                       const SumMembership& membership, const IntervalOptions& options) {
   Sides at_side = facets_at_sides(facets);
   FoundSegments found = all_segments(facets, rounded, options);
-  CutSegments cut = cut_segments(facets, rounded, found.segments, at_side, options);
-  peel(std::move(cut.links), cut.intervals);
+  CutSegments cut = cut_segments(facets, rounded, found.segments, at_side, membership, options);
+  remove_linked(std::move(cut.links), cut.intervals);
   return {std::move(found.segments), std::move(cut.cuts),       std::move(cut.cutting), std::move(cut.intervals),
           std::move(cut.doubtful),   std::move(found.touching), std::move(at_side)};
 }

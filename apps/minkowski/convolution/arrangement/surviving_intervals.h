@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/minkowski/convolution/arrangement/facet_segments.h"
+#include "apps/minkowski/convolution/marks/sum_membership.h"
 #include "nef/base/monitor.h"
 
 namespace nef::minkowski {
@@ -46,17 +47,16 @@ std::uint64_t side_key(const ConvolutionFacets& facets, std::uint32_t facet, std
 
 struct IntervalOptions {
   bool passages = false;             ///< find doubtful cuts and touching corners, too
-  unsigned threads = 1;              ///< 0: as many as the machine has; the result does not depend on it
   std::function<void(double)> poll;  ///< called with the share that is done; may throw; not empty
   Monitor monitor = {};              ///< who watches; what it refers to must outlive the call
 };
 
 /// All segments, cut where they meet other facets, without intervals at which surely nothing is to be seen but the
-/// inside of the sum. What is just behind a facet is inside, and it stays so up to the next facet; so an interval goes
-/// if a facet crosses the segment at one of its ends and has the interval behind it. Where three facets cross, and no
-/// other is there, one octant is in front of all three; if one of its three edges goes, so do the others.
+/// inside of the sum: a point of them is seen to be inside (`membership`, a grid); or a facet crosses at one end that
+/// has them behind it: just behind a facet is inside, up to the next one. Where three facets cross, and no other is
+/// there, one octant is in front of all three; if one of its three edges goes, so do the others.
 /// In doubles: what is not sure, stays. O(n log n + k) for k pairs of segments on one facet whose boxes overlap.
 SurvivingIntervals surviving_intervals(const ConvolutionFacets& facets, const RoundedFacets& rounded,
-                                       const IntervalOptions& options);
+                                       const SumMembership& membership, const IntervalOptions& options);
 
 }  // namespace nef::minkowski

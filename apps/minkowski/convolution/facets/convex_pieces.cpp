@@ -55,16 +55,10 @@ bool ConvexPieces::merge(Ring& ring, const Ring& other) const {
   return false;
 }
 
-std::vector<std::vector<std::uint32_t>> ConvexPieces::cut(FacetId id) {
-  const Facet& facet = c_.facets[id];
-  const ProjectionAxis projection = projection_axis(c_.planes, facet.plane);
+std::vector<std::vector<std::uint32_t>> ConvexPieces::cut(const std::vector<Ring>& rings,
+                                                          const ProjectionAxis& projection) {
   axis_ = projection.axis;
   sign_ = projection.sign;
-  std::vector<Ring> rings;
-  for (const CycleId cycle : facet.cycles()) {
-    Ring& ring = rings.emplace_back();
-    for (const SHalfedgeId corner : c_.corners_of(cycle)) ring.push_back(point_of(c_.shalfedge_vertex(corner)).index());
-  }
   if (rings.size() == 1 && is_convex(rings[0])) return rings;
   find_slits(rings);
   std::vector<Triangulator::Triangle> triangles;

@@ -6,22 +6,22 @@
 #include <vector>
 
 #include "nef/base/monitor.h"
-#include "nef/complex/complex.h"
 #include "nef/mesh/polygon/triangulate.h"
 
 namespace nef::minkowski {
 
-/// Cuts facets into convex polygons between their own vertices.
+/// Cuts polygons into convex ones between their own corners.
 class ConvexPieces {
  public:
-  /// The complex must outlive the object; its points must be finite.
-  ConvexPieces(const Complex& complex, const Monitor& monitor)
-      : c_(complex), monitor_(monitor), points_(complex.points), triangulator_(points_, monitor) {}
+  /// The points must outlive the object.
+  ConvexPieces(const MeshPoints& points, const Monitor& monitor)
+      : monitor_(monitor), points_(points), triangulator_(points_, monitor) {}
 
-  /// Polygons of vertices of the complex, counterclockwise about the facet's (unflipped) plane. Triangles of a
-  /// triangulation are merged as long as what comes of it is convex [Hertel, Mehlhorn 1983], but not across edges:
-  /// at most four times as many as there must be. O(n) for a convex facet.
-  std::vector<std::vector<std::uint32_t>> cut(FacetId facet);
+  /// Cuts a polygon, given by its rings as Triangulator takes them, into pieces that are turned like it. Triangles of a
+  /// triangulation are merged as long as what comes of it is convex [Hertel, Mehlhorn 1983], but not across sides that
+  /// rings walk both ways: at most four times as many as there must be. O(n) for a convex polygon.
+  std::vector<std::vector<std::uint32_t>> cut(const std::vector<std::vector<std::uint32_t>>& rings,
+                                              const ProjectionAxis& projection);
 
  private:
   using Ring = std::vector<std::uint32_t>;
@@ -31,11 +31,10 @@ class ConvexPieces {
   [[nodiscard]] bool is_slit(std::uint32_t u, std::uint32_t v) const;
   [[nodiscard]] bool merge(Ring& ring, const Ring& other) const;
 
-  const Complex& c_;
   Monitor monitor_;
-  MeshPoints points_;
+  const MeshPoints& points_;
   Triangulator triangulator_;
-  std::unordered_set<std::uint64_t> sides_;  // of the facet at hand, from vertex to vertex
+  std::unordered_set<std::uint64_t> sides_;  // of the polygon at hand, from vertex to vertex
   std::size_t axis_ = 0;
   int sign_ = 1;
 };

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "apps/minkowski/cells/rounded_cells.h"
+#include "apps/minkowski/convolution/facets/covered_voxels.h"
+#include "apps/minkowski/convolution/facets/near_origin.h"
 #include "apps/minkowski/convolution/facets/solid_features.h"
 #include "nef/geometry/point_table.h"
 
@@ -30,6 +32,8 @@ struct ConvolutionFacets {
   std::vector<std::uint8_t> inside_marks;
   std::vector<std::uint8_t> corner_marks;
   std::vector<std::uint8_t> side_marks;
+  CoveredVoxels covered;  ///< what is known of the inside of the sum; facets there are left out
+
   /// False if marks could not be told by these facets.
   bool marks_are_told = true;
 
@@ -39,17 +43,22 @@ struct ConvolutionFacets {
   }
 };
 
+/// Of a sum: if one of the sets has nothing of its boundary, so has the sum; if both have all of it, so has the sum.
+BoundaryMarks marks_of_sum(BoundaryMarks a, BoundaryMarks b);
+
 /// The sums of features of A and B at which A and a translate of -B can touch without one entering the other
 /// nearby: facet and peak, two convex edges whose arcs of normals cross, facet and parallel edge, parallel facets.
 ///
-/// A and B are bounded, and their boundaries bound them (SolidFeatures). Just behind each facet is the inside of A + B:
-/// there a boundary point of one solid meets the inside of the other. And the facets cover the boundary of A + B: a
-/// point x inside of a facet of the sum, but for a set without area, is a + b for items a of A and b of B whose sum has
-/// area and whose local cones K_a and -K_b have no inside in common. So either one of them is a facet and the other
-/// cone is on one side of its plane (it touches that plane in a point, an edge or a facet), or both are edges, and K_a
+/// A and B are bounded, and their boundaries bound them (SolidFeatures). Or both are closed, and one of them is a
+/// solid; what follows is true then, too, with the solid's inside. Just behind each facet is the inside of A + B: there
+/// a boundary point of one solid meets the inside of the other. And the facets cover the boundary of A + B: a point x
+/// inside of a facet of the sum, but for a set without area, is a + b for items a of A and b of B whose sum has area
+/// and whose local cones K_a and -K_b have no inside in common. So either one of them is a facet and the other cone is
+/// on one side of its plane (it touches that plane in a point, an edge or a facet), or both are edges, and K_a
 /// + K_b, which does not change along either, is a half-space. O(n m) signs for n and m features, most of which are
-/// doubles, on up to `threads` threads (0: as many as the machine has).
-ConvolutionFacets reduced_convolution(const SolidFeatures& a, const SolidFeatures& b, unsigned threads,
-                                      const Monitor& monitor);
+/// doubles, on the threads of `monitor`. Facets that surely do not come into the ball
+/// `near` may be left out; then signs are taken of features of A that are near features of -B only.
+ConvolutionFacets reduced_convolution(const SolidFeatures& a, const SolidFeatures& b, const Monitor& monitor,
+                                      const NearOrigin& near = NearOrigin(HUGE_VAL));
 
 }  // namespace nef::minkowski

@@ -42,6 +42,8 @@ class RoundedFacets {
   [[nodiscard]] std::span<const Box> boxes() const { return boxes_; }
   /// A bound of how far a rounded corner is from the true one in each coordinate.
   [[nodiscard]] double corner_error() const { return 4 * kUnit * extent_; }
+  /// The largest absolute coordinate.
+  [[nodiscard]] double extent() const { return extent_; }
   /// False if sizes are such that the bounds do not hold.
   [[nodiscard]] bool are_proven() const { return has_moderate_size(extent_); }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What of a solid can touch another one without entering it, and in which directions.
+// What of a solid, or of a sheet or curve, can touch a solid without entering it, and in which directions.
 #pragma once
 
 #include <array>
@@ -21,19 +21,24 @@ struct FacetPiece {
   std::uint8_t mark = 1;            ///< of the inside
 };
 
-/// A facet of a solid.
+/// A facet of a solid. One of a sheet is two such facets.
 struct SolidFacet {
   Direction normal;  ///< outward
   std::vector<FacetPiece> pieces;
+  /// Vertices around a facet of several pieces, which has them on its left as seen from outside; the outer ring first.
+  /// None if there is just one piece, or an edge ends inside of the facet.
+  std::vector<std::vector<std::uint32_t>> rings;
 };
 
-/// An edge at which more than a half-turn is free. The normals of the planes that touch the solid there form an arc,
-/// shorter than a half circle, from that of one facet to that of the other, counterclockwise about the edge.
+/// An edge at which more than a half-turn is free. The normals of the planes that touch the set there form an arc, from
+/// that of one facet to that of the other, counterclockwise about the edge: shorter than a half circle, or that at the
+/// border of a sheet. At an edge of a curve it is all of the circle.
 struct ConvexEdge {
   std::uint32_t from = 0, to = 0;
   Direction line;  ///< from `from` to `to`
   Direction first, last;
   std::uint8_t mark = 1;
+  bool is_bare = false;  ///< no facets; first and last mean nothing
 
   /// True if a direction that is normal to the edge lies in the inside of the arc.
   [[nodiscard]] bool touches(const Direction& normal, const Monitor& monitor) const;
@@ -43,7 +48,7 @@ struct ConvexEdge {
 enum class BoundaryMarks : std::uint8_t { kAll, kNone, kMixed };
 
 /// Facets, convex edges and vertices of a bounded set all of whose facets have the inside of the set on one side and
-/// nothing of it on the other. May be shared between threads.
+/// nothing of it on the other; or of any closed bounded set. May be shared between threads.
 class SolidFeatures {
  public:
   /// The solid must outlive the object. O(n), and for facets that are not convex what a triangulation takes.
@@ -60,12 +65,14 @@ class SolidFeatures {
   [[nodiscard]] const std::vector<ConvexEdge>& edges() const { return edges_; }
   [[nodiscard]] const std::vector<Rational3>& points() const { return points_; }
 
-  /// True if the solid near the vertex lies below it in the direction: strictly, but for the vertex itself. O(degree).
+  /// True if the set near the vertex lies below it in the direction: strictly, but for the vertex itself. O(degree).
   [[nodiscard]] bool is_peak(std::uint32_t vertex, const Direction& up, const Monitor& monitor) const;
 
  private:
   void find_marks();
   void add_facets(const Monitor& monitor);
+  void add_facet(const Facet& facet, bool solid_above, const std::vector<std::vector<std::uint32_t>>& pieces,
+                 const std::vector<std::vector<std::uint32_t>>& rings);
   void mark_sides(FacetPiece& piece) const;
   void add_edge(VertexId vertex, std::uint32_t svertex, const Monitor& monitor);
   void know_integers() const;

@@ -166,16 +166,14 @@ void BoundaryMarker::mark(PointId point, bool is_saddle_point, SphereMapBuffer& 
   }
 }
 
-void BoundaryMarker::answer(const SumMembership& membership, unsigned threads,
-                            const std::function<void(double)>& poll) {
+void BoundaryMarker::answer(const SumMembership& membership, const std::function<void(double)>& poll) {
   constexpr std::size_t kBlock = 256;
   for (std::size_t first = 0; first < questions_.size(); first += kBlock) {
     poll(static_cast<double>(first) / static_cast<double>(questions_.size()));
-    parallel_for(std::min(kBlock, questions_.size() - first), threads, monitor_,
-                 [&](std::size_t k, const Monitor& own) {
-                   const Question& q = questions_[first + k];
-                   *q.mark = *q.twin = membership.in_sum(q.point, own) ? 1 : 0;
-                 });
+    parallel_for(std::min(kBlock, questions_.size() - first), monitor_, [&](std::size_t k, const Monitor& own) {
+      const Question& q = questions_[first + k];
+      *q.mark = *q.twin = membership.in_sum(q.point, own) ? 1 : 0;
+    });
   }
 }
 

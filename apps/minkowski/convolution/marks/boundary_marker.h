@@ -43,9 +43,9 @@ class BoundaryMarker {
   /// are.
   void mark(PointId point, bool is_saddle_point, SphereMapBuffer& map);
 
-  /// Puts what is open to the definition, on up to `threads` threads. `poll` is called by the calling thread with the
-  /// share that is done and may throw.
-  void answer(const SumMembership& membership, unsigned threads, const std::function<void(double)>& poll);
+  /// Puts what is open to the definition. `poll` is called by the calling thread with the share that is done
+  /// and may throw.
+  void answer(const SumMembership& membership, const std::function<void(double)>& poll);
 
   /// Points that were put to the definition.
   [[nodiscard]] std::size_t tested() const { return questions_.size(); }

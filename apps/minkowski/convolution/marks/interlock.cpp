@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A vertex is a saddle if neither the solid nor its complement is convex there: several solid or free sfaces, or both
-// convex and reflex edges. For each pair of saddles, tests that are cheap and one-sided rule out most candidates. Both
-// solids overlap if a direction into one, turned about the vertex, leads into the other one, or if arcs of their
-// boundaries cross. They can be moved apart if the convex hull of one, turned, does not enter the other one. What
-// passes all tests becomes a candidate, unless the definition says that the point is inside the sum.
+// convex and reflex edges. For each pair of saddles, tests that are cheap and one-sided rule out most candidates: the
+// sum lies in a cube that is surely inside. Both solids overlap if a direction into one, turned about the vertex, leads
+// into the other one, or if arcs of their boundaries cross. They can be moved apart if the convex hull of one, turned,
+// does not enter the other one. What passes all tests becomes a candidate, unless the definition says that the point is
+// inside the sum.
 #include "apps/minkowski/convolution/marks/interlock.h"
 
 #include <algorithm>
 #include <array>
 
 #include "apps/minkowski/convolution/marks/direction_into.h"
+#include "nef/base/fast_path.h"
 #include "nef/base/monitor.h"
 #include "nef/geometry/vectors.h"
+#include "nef/number/approximation.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
 namespace nef::minkowski {
@@ -33,12 +36,22 @@ struct Arc {
   }
 };
 
+// An arc in doubles, and on which side of its circle a certain direction is.
+struct NearArc {
+  Approximation3 normal, from, to;
+  int side = 0;  // 0 if that is not sure
+};
+
 // A vertex around which neither the solid nor the rest of space is convex, and some directions into the solid or along
 // its edges.
 struct Saddle {
   VertexId vertex{0};
+  Double3 near{};                     // where it is, about
+  Box box;                            // around that
   std::vector<Direction> into, back;  // the second ones are opposite to the first
   std::vector<Arc> arcs;
+  std::vector<NearArc> near_arcs;  // all of them, or none
+  Approximation3 near_into;        // a direction into the solid; their sides are its
   /// Of the convex hull of the solid there, unless that is all of space, turned about the vertex: normals, positive
   /// inside, of planes the extreme ones of which bound it; and a direction inside of it.
   std::vector<Direction> turned_hull;
@@ -100,6 +113,25 @@ void find_hull(const Complex& c, const SphereMapView& map, Saddle& saddle, const
   saddle.turned_hull = std::move(normals);
 }
 
+Approximation3 near(const Direction& d) {
+  return {Approximation{d.approximate[0], d.error}, Approximation{d.approximate[1], d.error},
+          Approximation{d.approximate[2], d.error}};
+}
+
+// What surely_in asks; no arcs if one is not short.
+void find_near_arcs(Saddle& saddle) {
+  saddle.near_into = near(saddle.into.front());
+  for (const Arc& arc : saddle.arcs) {
+    if (arc.turn <= 0) {
+      saddle.near_arcs.clear();
+      return;
+    }
+    const Approximation3 normal = near(arc.normal);
+    const int side = dot(normal, saddle.near_into).sign().value_or(0);
+    saddle.near_arcs.push_back({normal, near(arc.from), near(arc.to), side});
+  }
+}
+
 std::vector<Saddle> saddles(const Complex& c, const Monitor& monitor) {
   std::vector<Saddle> result;
   for (const VertexId v : c.vertex_ids()) {
@@ -107,6 +139,9 @@ std::vector<Saddle> saddles(const Complex& c, const Monitor& monitor) {
     if (!is_saddle(c, map, monitor)) continue;
     Saddle saddle;
     saddle.vertex = v;
+    const Rational3 at = c.points.rational(point_of(v));
+    saddle.near = {nearest_double(at[0]), nearest_double(at[1]), nearest_double(at[2])};
+    saddle.box.add_rounded(saddle.near);
     for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
       if (map.sfaces[map.shalfedges[e].sface].mark == 0) continue;
       saddle.into.push_back(direction_into(c.planes, map, map.shalfedges[e].sface, e, monitor));
@@ -119,6 +154,7 @@ std::vector<Saddle> saddles(const Complex& c, const Monitor& monitor) {
           {normal, from, to, turn > 0 ? Direction() : direction_on_arc(c.planes, map, e, monitor), turn});
     }
     for (const Direction& d : saddle.into) saddle.back.push_back(d.negated());
+    find_near_arcs(saddle);
     find_hull(c, map, saddle, monitor);
     result.push_back(std::move(saddle));
   }
@@ -184,10 +220,40 @@ bool cross(const Saddle& s, const Saddle& t, const Monitor& monitor) {
   return false;
 }
 
-bool holds_one(const Complex& c, VertexId vertex, const std::vector<Direction>& directions, const Monitor& monitor) {
-  const SphereMapView map = c.sphere_map(vertex);
-  return std::any_of(directions.begin(), directions.end(), [&](const Direction& d) {
-    const SphereLocation at = locate(c.planes, map, d, monitor);
+// Whether a direction is in the inside of the solid around a saddle (1) or in that of the rest (-1), if doubles tell;
+// else 0. Each arc has the solid on its left and none of it on its right, so the arcs between the direction and one
+// into the solid count. Two short arcs cross iff the ends of each are on both sides of the other's circle and they
+// cross there on the same half of the sphere: going from d to r one comes to the side sign(n . r) of the other arc's
+// circle at sign(n . r) (n x m), and going from `from` to `to` to the side sign(m . to) at sign(m . to) (m x n), m = d
+// x r.
+int surely_in(const Saddle& saddle, const Approximation3& d) {
+  if (saddle.near_arcs.empty()) return 0;
+  const Approximation3& r = saddle.near_into;
+  const Approximation3 m = cross(d, r);
+  int result = 1;
+  for (const NearArc& arc : saddle.near_arcs) {
+    const int of_d = dot(arc.normal, d).sign().value_or(0);
+    if (of_d == 0 || arc.side == 0) return 0;
+    if (of_d == arc.side) continue;
+    const int of_from = dot(m, arc.from).sign().value_or(0);
+    const int of_to = dot(m, arc.to).sign().value_or(0);
+    if (of_from == 0 || of_to == 0) return 0;
+    if (of_from != of_to && of_to == -arc.side) result = -result;
+  }
+  return result;
+}
+
+bool holds_one(const Complex& c, const Saddle& saddle, const std::vector<Direction>& directions,
+               const Monitor& monitor) {
+  std::vector<const Direction*> unsure;
+  for (const Direction& d : directions) {
+    const int where = kFastPaths ? surely_in(saddle, near(d)) : 0;
+    if (where > 0) return true;
+    if (where == 0) unsure.push_back(&d);
+  }
+  const SphereMapView map = c.sphere_map(saddle.vertex);
+  return std::any_of(unsure.begin(), unsure.end(), [&](const Direction* d) {
+    const SphereLocation at = locate(c.planes, map, *d, monitor);
     return at.kind == SphereLocation::Kind::kSFace && map.sfaces[at.index].mark != 0;
   });
 }
@@ -195,7 +261,7 @@ bool holds_one(const Complex& c, VertexId vertex, const std::vector<Direction>& 
 }  // namespace
 
 std::vector<SaddlePoint> saddle_points(const Polyhedron& a, const Polyhedron& b, const SumMembership& membership,
-                                       const Monitor& monitor) {
+                                       const CoveredVoxels& covered, const Monitor& monitor, const NearOrigin& near) {
   const Complex& of_a = a.complex();
   const Complex& of_b = b.complex();
   const std::vector<Saddle> saddles_a = saddles(of_a, monitor);
@@ -204,7 +270,10 @@ std::vector<SaddlePoint> saddle_points(const Polyhedron& a, const Polyhedron& b,
   for (const Saddle& s : saddles_a) {
     monitor.check_interruption();
     for (const Saddle& t : saddles_b) {
-      if (holds_one(of_a, s.vertex, t.back, monitor) || holds_one(of_b, t.vertex, s.back, monitor)) continue;
+      if (!near.is_all() && !near.may_hold(s.box, t.box)) continue;
+      const Double3 about = {s.near[0] + t.near[0], s.near[1] + t.near[1], s.near[2] + t.near[2]};
+      if (covered.cover({&about, 1})) continue;
+      if (holds_one(of_a, s, t.back, monitor) || holds_one(of_b, t, s.back, monitor)) continue;
       if (cross(s, t, monitor) || fits(of_a, s, t, monitor) || fits(of_b, t, s, monitor)) continue;
       const Rational3 p = of_a.points.rational(point_of(s.vertex));
       const Rational3 q = of_b.points.rational(point_of(t.vertex));

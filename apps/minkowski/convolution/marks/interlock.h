@@ -3,6 +3,8 @@
 // Contacts of two solids that allow no motion at all.
 #pragma once
 
+#include "apps/minkowski/convolution/facets/covered_voxels.h"
+#include "apps/minkowski/convolution/facets/near_origin.h"
 #include "apps/minkowski/convolution/facets/solid_features.h"
 #include "apps/minkowski/convolution/marks/sum_membership.h"
 
@@ -21,12 +23,14 @@ namespace nef::minkowski {
 ///   vertices are saddles of their solids.
 /// These are the sums of two saddles of which some directions into the solids do not tell that they overlap, nor that
 /// the sum is in int A + int B: all points where A and x - B interlock, and others. Both solids have one wedge at each
-/// edge. O(n m) directions located on sphere maps for n and m saddles.
+/// edge. Points that surely are not in the ball `near` may be left out. O(n m) directions located on sphere maps for n
+/// and m saddles.
 struct SaddlePoint {
   Rational3 point;
   std::uint8_t mark = 0;  ///< both vertices belong to their sets
 };
 std::vector<SaddlePoint> saddle_points(const Polyhedron& a, const Polyhedron& b, const SumMembership& membership,
-                                       const Monitor& monitor);
+                                       const CoveredVoxels& covered, const Monitor& monitor,
+                                       const NearOrigin& near = NearOrigin(HUGE_VAL));
 
 }  // namespace nef::minkowski

@@ -33,9 +33,18 @@ bool SumMembership::in_sum(const Rational3& x, const Monitor& monitor) const {
   return sets_->meet(x, monitor);
 }
 
-bool SumMembership::in_closure(const Rational3& x, const Monitor& monitor) const {
+const IntersectionQuery& SumMembership::closures(const Monitor& monitor) const {
   std::call_once(closures_once_, [&] { closures_.emplace(closure(a_, monitor), closure(turned_b_, monitor)); });
-  return closures_->meet(x, monitor);
+  return *closures_;
+}
+
+bool SumMembership::in_closure(const Rational3& x, const Monitor& monitor) const {
+  return closures(monitor).meet(x, monitor);
+}
+
+bool SumMembership::surely_in_inside(const Approximation3& x, IntersectionQuery::Crossings& recent, bool search,
+                                     const Monitor& monitor) const {
+  return closures(monitor).surely_cross(x, recent, search);
 }
 
 bool SumMembership::in_inside(const Rational3& x, const Monitor& monitor) const {

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// nef section | split | distance
+//
+// Each command reads its sets, calls one function of nef/parts or nef/distance, which says how it works, and prints
+// what that found; split chooses parts by their volumes before it writes them.
+#include <algorithm>
+#include <filesystem>
+
+#include "apps/nef/command/commands.h"
+#include "apps/nef/command/questions/section_drawing.h"
+#include "apps/program/numbers.h"
+#include "nef/base/error.h"
+#include "nef/base/timing/stopwatch.h"
+#include "nef/distance/distance.h"
+#include "nef/io/file_bytes.h"
+#include "nef/io/polyhedron_file.h"
+#include "nef/number/brief_text.h"
+#include "nef/parts/by_volume.h"
+#include "nef/parts/section.h"
+#include "nef/parts/split.h"
+#include "nef/polyhedron.h"
+
+namespace nef {
+namespace {
+
+void write_section(Session& session, const Section& section, const Rational3& normal) {
+  const std::string extension = lower_extension(session.output);
+  if (extension == "svg") {
+    write_file(session.output, section_svg(section, normal));
+  } else if (extension == "dxf") {
+    write_file(session.output, section_dxf(section, normal));
+  } else {
+    session.store(section.set);
+    return;
+  }
+  if (section.unbounded > 0) {
+    session.note(std::to_string(section.unbounded) + " parts of the section that reach infinity are not drawn");
+  }
+}
+
+void run_section(Session& session, const std::string& plane) {
+  const std::vector<Rational> n = parse_numbers(plane, "--plane");
+  if (n.size() != 4) throw InputError("--plane: expected four numbers a,b,c,d instead of " + std::to_string(n.size()));
+  const Rational3 normal{n[0], n[1], n[2]};
+  const Polyhedron set = session.load(session.input);
+  const Stopwatch watch;
+  const Section cut = section(set, normal, n[3], session.monitor);
+  const double section_s = watch.seconds();
+  if (!session.output.empty()) write_section(session, cut, normal);
+  if (session.json) {
+    session.spent("op", section_s);
+    Json object;
+    object["polygons"] = cut.polygons.size();
+    object["segments"] = cut.segments.size();
+    object["points"] = cut.points.size();
+    object["unbounded"] = cut.unbounded;
+    object["area"] = section_area(cut);
+    return session.print("section", object);
+  }
+  session.say(std::to_string(cut.polygons.size()) + " polygons, " + std::to_string(cut.segments.size()) +
+              " segments, " + std::to_string(cut.points.size()) + " points; area " + Json(section_area(cut)).dump());
+}
+
+std::string left_out_text(std::size_t left_out, std::size_t all) {
+  return std::to_string(left_out) + " of " + std::to_string(all) + " parts " + (left_out == 1 ? "is" : "are") +
+         " left out";
+}
+
+// Whether the output names a file of a format that is written, and no folder.
+bool names_file(const std::string& path) {
+  const std::vector<std::string> known = file_extensions();
+  return std::find(known.begin(), known.end(), lower_extension(path)) != known.end() &&
+         !std::filesystem::is_directory(path);
+}
+
+void store_as_one(Session& session, const std::vector<Polyhedron>& parts, double seconds) {
+  if (parts.empty()) throw InputError("there is no part to write");
+  const Polyhedron set = parts.size() == 1 ? parts[0] : unite_all(parts, session.monitor);
+  session.store(set);
+  session.say(session.output + ": " + summary(set));
+  if (!session.json) return;
+  session.spent("op", seconds);
+  session.print("split", {{"files", Json::array({session.output})}});
+}
+
+struct SplitFlags {
+  bool volumes = false;
+  bool largest = false;
+  std::string above;
+};
+
+void add_split_options(CLI::App& command, Session&, SplitFlags& flags) {
+  command.add_flag("--volumes", flags.volumes,
+                   "One part for each volume instead of each connected component: what touches in edges comes apart");
+  command
+      .add_option("--above", flags.above,
+                  "Only parts of more than this volume; if -o is a file (B.off) and no folder, all of them in it")
+      ->type_name("VOLUME");
+  command.add_flag("--largest", flags.largest, "Only the part of the largest volume; -o is its file");
+}
+
+void run_split(Session& session, const SplitFlags& flags) {
+  const Polyhedron set = session.load(session.input);
+  const Stopwatch watch;
+  std::vector<Polyhedron> parts = flags.volumes ? split_volumes(set, session.monitor) : split(set, session.monitor);
+  const std::size_t all = parts.size();
+  if (!flags.above.empty()) {
+    const std::vector<Rational> bound = parse_numbers(flags.above, 1, "--above");
+    parts = pieces_above(std::move(parts), bound[0], session.monitor);
+  }
+  if (flags.largest && !parts.empty()) parts = {parts[largest_piece(parts, session.monitor)]};
+  const double split_s = watch.seconds();
+  if (parts.size() < all) session.note(left_out_text(all - parts.size(), all));
+  if (flags.largest || (!flags.above.empty() && names_file(session.output))) {
+    return store_as_one(session, parts, split_s);
+  }
+  const std::filesystem::path folder = session.output;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw InputError(session.output + ": cannot be made a folder (" + error.message() + ")");
+  if (session.format.empty()) session.format = "off";
+  Json files = Json::array();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    session.output = (folder / (std::to_string(i) + "." + session.format)).string();
+    session.store(parts[i]);
+    files.push_back(session.output);
+    session.say(session.output + ": " + summary(parts[i]));
+  }
+  if (!session.json) return;
+  session.spent("op", split_s);
+  session.print("split", {{"files", std::move(files)}});
+}
+
+void run_distance(Session& session) {
+  const Polyhedron a = session.load(session.inputs[0]);
+  const Polyhedron b = session.load(session.inputs[1]);
+  const Stopwatch watch;
+  const std::optional<Distance> found = distance(a, b, session.monitor);
+  if (!found) throw InputError("one of the sets is empty: there is no distance");
+  if (session.json) {
+    session.spent("op", watch.seconds());
+    return session.print("distance", {{"contact", contact_name(found->contact)},
+                                      {"common_point", found->common_point},
+                                      {"squared", to_string(found->squared)},
+                                      {"distance", found->value()},
+                                      {"on_a", point_json(found->on_a)},
+                                      {"on_b", point_json(found->on_b)}});
+  }
+  session.say(std::string(contact_name(found->contact)) +
+              (found->contact == Contact::kTouching && !found->common_point ? ", without a common point" : ""));
+  if (found->contact == Contact::kOverlapping) return;
+  if (found->contact == Contact::kDisjoint) {
+    session.say("distance: " + Json(found->value()).dump() + ", the square root of " + brief_text(found->squared));
+    session.say("nearest: " + point_text(found->on_a) + " and " + point_text(found->on_b));
+  } else {
+    session.say("at: " + point_text(found->on_a));
+  }
+}
+
+}  // namespace
+
+Commands parts_commands() {
+  return {
+      with_flags<std::string>(
+          {.name = "section",
+           .description = "The exact intersection of a set and a plane",
+           .output = Output::kOptional,
+           .output_text = "file to write: a drawing in the plane (.svg in drawing units, .dxf), or the section in "
+                          "space (.nef and mesh formats)"},
+          [](CLI::App& command, Session&, std::string& plane) {
+            command.add_option("--plane", plane, "The plane ax+by+cz+d = 0")->required()->type_name("A,B,C,D");
+          },
+          run_section),
+      with_flags<SplitFlags>(
+          {.name = "split",
+           .description = "Write one file for each part of a set",
+           .output = Output::kRequired,
+           .output_text = "folder for the parts, made if need be; they are called 0.off, 1.off, ... (see --format)"},
+          add_split_options, run_split),
+      {.name = "distance",
+       .description = "How far apart are two sets? The exact square, and nearest points",
+       .operands = "The two sets, as files",
+       .least = 2,
+       .most = 2,
+       .run = run_distance}};
+}
+
+}  // namespace nef

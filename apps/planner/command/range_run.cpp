@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// One run: read the mechanism, find its range, write the report, print a line for each part. The report has the ends as
+// exact roots and as doubles; the text has doubles and the first pair of items that touch.
+#include "apps/planner/command/range_run.h"
+
+#include <algorithm>
+#include <iostream>
+
+#include "apps/program/exact_json.h"
+#include "apps/program/run_report.h"
+#include "nef/base/error.h"
+#include "nef/base/interruption.h"
+#include "nef/base/timing/stopwatch.h"
+#include "nef/io/file_bytes.h"
+#include "nef/io/number_text.h"
+
+namespace nef::planner {
+namespace {
+
+using nlohmann::json;
+
+const char* status_text(RangeStatus status) {
+  switch (status) {
+    case RangeStatus::kFree:
+      return "free";
+    case RangeStatus::kTouching:
+      return "touching";
+    case RangeStatus::kColliding:
+      return "colliding";
+    case RangeStatus::kUndecided:
+      break;
+  }
+  return "undecided";
+}
+
+const char* joint_text(Joint::Kind kind) {
+  switch (kind) {
+    case Joint::Kind::kHinge:
+      return "hinge";
+    case Joint::Kind::kSlider:
+      return "slider";
+    case Joint::Kind::kScrew:
+      break;
+  }
+  return "screw";
+}
+
+// Some 18 digits beyond the point.
+constexpr unsigned kBits = 60;
+
+double measure_of(const QuadraticRoot& value, const Joint& joint) {
+  return joint.measure_of(enclosure(value, kBits)[0]);
+}
+
+json end_json(const RangeEnd& end, const Mechanism& m) {
+  json result;
+  result[m.joint.kind() == Joint::Kind::kSlider ? "stroke" : "degrees"] = measure_of(end.value, m.joint);
+  if (end.value.is_rational()) {
+    result["value"] = to_string(end.value.rational);
+  } else {
+    const std::array<Rational, 2> around = enclosure(end.value, kBits);
+    result["between"] = {to_string(around[0]), to_string(around[1])};
+    result["root"] = {
+        {"rational", to_string(end.value.rational)}, {"square", to_string(end.value.square)}, {"sign", end.value.sign}};
+  }
+  for (const ContactPair& stop : end.stops) {
+    result["stops"].push_back({{"moving", stop.moving}, {"fixed", stop.fixed}, {"of_fixed", stop.of_fixed}});
+  }
+  return result;
+}
+
+// The first of them: others are the same contact, seen from other items.
+std::string stops_text(const RangeEnd& end, const Mechanism& m) {
+  if (end.stops.empty()) return "";
+  const ContactPair& stop = end.stops.front();
+  std::string text = " (" + stop.moving + " and " + stop.of_fixed + " of " + m.fixed_names[stop.fixed];
+  if (end.stops.size() > 1) text += ", " + std::to_string(end.stops.size() - 1) + " more";
+  return text + ")";
+}
+
+void print(const RangeOfMotion& range, const Mechanism& m) {
+  const bool slides = m.joint.kind() == Joint::Kind::kSlider;
+  const auto at = [&](const RangeEnd& end) {
+    std::string text;
+    append_number(text, measure_of(end.value, m.joint));
+    return text;
+  };
+  for (const RangePart& part : range.parts) {
+    std::cout << status_text(part.status);
+    if (compare(part.from.value, part.to.value) == 0) {
+      std::cout << " at " << at(part.from);
+    } else {
+      std::cout << " from " << at(part.from) << " to " << at(part.to);
+    }
+    std::cout << (slides ? "" : " degrees") << stops_text(part.from, m);
+    if (compare(part.from.value, part.to.value) != 0) std::cout << stops_text(part.to, m);
+    std::cout << '\n';
+  }
+}
+
+}  // namespace
+
+json range_json(const RangeOfMotion& range, const Mechanism& m) {
+  json result{{"joint", joint_text(m.joint.kind())}, {"fixed", m.fixed_names}, {"parts", json::array()}};
+  for (const RangePart& part : range.parts) {
+    result["parts"].push_back(
+        {{"status", status_text(part.status)}, {"from", end_json(part.from, m)}, {"to", end_json(part.to, m)}});
+  }
+  result["cells"] = range.cells;
+  result["events"] = range.events;
+  return result;
+}
+
+int run_range(const Arguments& a) {
+  const Stopwatch watch;
+  const Mechanism mechanism = read_mechanism(a.range, a.session.mesh);
+  a.session.note_all(mechanism.messages);
+  const double setup_s = watch.seconds();
+  const StopQuestion question(a.time_given ? std::function<bool()>([&] { return watch.seconds() >= a.seconds; })
+                                           : nullptr);
+  RangeOfMotion range;
+  try {
+    range = range_of_motion(mechanism, question.monitor());
+  } catch (const Interrupted&) {
+    range.parts.assign(1, {RangeStatus::kUndecided, {mechanism.low, {}}, {mechanism.high, {}}});
+  }
+  json found = range_json(range, mechanism);
+  found["mechanism"] = mechanism.name;
+  std::string text = report_text(
+      run_report("range", found, {{"setup", setup_s, {}}, {"op", watch.seconds() - setup_s, {}}}, mechanism.messages));
+  for (const std::string& file : a.outputs) write_file(file, text);
+  print_result(
+      a, [&] { return text; }, [&] { print(range, mechanism); });
+  const bool open = std::any_of(range.parts.begin(), range.parts.end(),
+                                [](const RangePart& part) { return part.status == RangeStatus::kUndecided; });
+  return open ? 5 : 0;
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The range of motion of a mechanism with one moving part, exactly.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "apps/planner/mechanism/joint.h"
+#include "nef/base/monitor.h"
+
+namespace nef::planner {
+
+/// What holds between the moving part and the others at a joint's value.
+enum class RangeStatus : std::uint8_t {
+  kFree,       ///< they have no point in common
+  kTouching,   ///< they have, but no interiors overlap
+  kColliding,  ///< interiors overlap
+  kUndecided   ///< screws only: too near to an end for doubles
+};
+
+/// Two items that touch at the end of a part of the range.
+struct ContactPair {
+  std::string moving;     ///< of the moving part: "vertex 3", "edge 5", "facet 2"
+  std::size_t fixed = 0;  ///< which of the others
+  std::string of_fixed;   ///< its item
+};
+
+/// An end of a part of the range.
+struct RangeEnd {
+  QuadraticRoot value;             ///< exact, except next to an undecided part, where it is a bound
+  std::vector<ContactPair> stops;  ///< items that touch there, if something changes there
+};
+
+/// A maximal interval of values with one status, or one value that differs from those on both sides. What is free or
+/// colliding is open, what touches is closed: ends that two parts share belong to the one that touches.
+struct RangePart {
+  RangeStatus status = RangeStatus::kFree;
+  RangeEnd from;
+  RangeEnd to;
+};
+
+struct RangeOfMotion {
+  std::vector<RangePart> parts;  ///< in order, covering the mechanism's range
+  std::size_t cells = 0;         ///< that the range was cut into
+  std::size_t events = 0;        ///< values at which something might have changed
+};
+
+/// The whole range of the mechanism. Cells of values in which hulls (motion_cell.h) prove that nothing touches, or that
+/// something collides all the time, are done; in the others all contact events (contact_events.h) of the pieces that
+/// come near are found, and each value between two of them is checked exactly, as are the events themselves. So hinges
+/// and sliders are decided completely. Screws, whose contact is transcendental, are bisected until what is undecided is
+/// as narrow as doubles allow, some 1e-9 of a quarter.
+RangeOfMotion range_of_motion(const Mechanism& mechanism, const Monitor& monitor = {});
+
+}  // namespace nef::planner

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// With int O + int -R the forbidden positions of solids, their closure is the union of the closed sums, and the closure
+// of the complement of that is what a path may use that touches, but leads through no tight passage.
+#include "apps/planner/path/partial_answer.h"
+
+#include <algorithm>
+
+#include "apps/minkowski/minkowski.h"
+#include "apps/planner/path/nearby_answer.h"
+#include "nef/base/error.h"
+#include "nef/base/monitor.h"
+#include "nef/base/timing/stopwatch.h"
+#include "nef/construct/construct.h"
+
+namespace nef::planner {
+namespace {
+
+// Below, cutting into convex cells is no more work than a convolution.
+constexpr std::size_t kMeshFacets = 200;
+
+bool is_bounded_solid(const Polyhedron& set) { return set.is_bounded() && set.is_regular(); }
+
+// The closure of the positions at which the robot is away from all obstacles.
+Polyhedron interior_positions(const Scene& scene, const BuildOptions& build, const Monitor& monitor) {
+  minkowski::MinkowskiOptions options;
+  options.progress = [&build](std::size_t done, std::size_t total) {
+    if (build.progress) build.progress("configuration space", done, total);
+    return true;
+  };
+  options.monitor = monitor;
+  const Polyhedron reflected = minkowski::negate(scene.robot, monitor);
+  std::vector<Polyhedron> sums;
+  for (const Polyhedron& obstacle : scene.obstacles) {
+    sums.push_back(minkowski::minkowski_sum(obstacle, reflected, options));
+  }
+  const Polyhedron free = closure(complement(unite_all(sums, monitor)), monitor);
+  return scene.box ? intersect(free, make_box((*scene.box)[0], (*scene.box)[1], monitor), monitor) : free;
+}
+
+}  // namespace
+
+bool can_have_interior_answer(const Scene& scene) {
+  return !scene.rotation && scene.contact == ContactRule::kAllow && scene.start && scene.goal &&
+         is_bounded_solid(scene.robot) && std::all_of(scene.obstacles.begin(), scene.obstacles.end(), is_bounded_solid);
+}
+
+std::optional<PartialAnswer> partial_answer(const Scene& scene, const PathOptions& options, const BuildOptions& build) {
+  const auto is_mesh = [](const Polyhedron& set) { return set.complex().facets.size() >= kMeshFacets; };
+  const bool any = is_mesh(scene.robot) || std::any_of(scene.obstacles.begin(), scene.obstacles.end(), is_mesh);
+  if (any && can_have_interior_answer(scene)) return interior_answer(scene, options, build);
+  return may_have_nearby_answer(scene) ? nearby_answer(scene, options, build) : std::nullopt;
+}
+
+std::optional<PartialAnswer> interior_answer(const Scene& scene, const PathOptions& options,
+                                             const BuildOptions& build) {
+  NEF_ASSERT(can_have_interior_answer(scene));
+  const StopQuestion question(build.stop, build.monitor);
+  const Monitor& monitor = question.monitor();
+  Stopwatch watch;
+  PartialAnswer result;
+  Answer& answer = result.answer;
+  Polyhedron positions = interior_positions(scene, build, monitor);
+  answer.phases["configuration_space"] = watch.lap();
+  result.free = std::make_shared<const FreeSpace>(std::move(positions));
+  answer.phases["cells"] = watch.lap();
+  const FreeSpace& free = *result.free;
+  const CellId start = free.locate(ExactPoint(*scene.start));
+  const CellId goal = free.locate(ExactPoint(*scene.goal));
+  if (!free.is_free(start) || !free.is_free(goal)) return std::nullopt;
+  answer.thinness = free.thinness(start, goal);
+  if (!answer.thinness || answer.thinness->piece < 3 || answer.thinness->junction < 3) return std::nullopt;
+  answer.path = find_path(free, *scene.start, *scene.goal, options, monitor);
+  if (!answer.path) return std::nullopt;
+  answer.status = Answer::Status::kPath;
+  answer.start_component = free.component(start);
+  answer.goal_component = free.component(goal);
+  answer.phases["query"] = watch.lap();
+  return result;
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a picture, a page or a GLB file shows: named scenes with a colour, and what programs add to them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/view/scene.h"
+
+namespace nef::view {
+
+using Color = std::array<std::uint8_t, 3>;  ///< red, green, blue as in sRGB
+
+/// A motion in time: at times[i] (seconds, increasing) the layer is moved by offsets[i], in between linearly. If there
+/// are turns, it is first turned by turns[i] about the pivot, in between about one axis at constant speed.
+struct Motion {
+  std::vector<double> times;
+  std::vector<Point> offsets;
+  std::vector<std::array<double, 4>> turns{};  ///< unit quaternions w x y z, none or one for each time
+  Point pivot{};                               ///< where it is before any motion
+  [[nodiscard]] bool empty() const { return times.empty(); }
+};
+
+/// A line of segments that is no part of a polyhedron: a path, a viewing ray.
+struct Polyline {
+  std::string name;
+  std::vector<Point> points;
+  Color color{40, 40, 40};
+};
+
+/// An image that hangs in space: a photograph in front of its camera. Pages only.
+struct Photo {
+  std::string name;
+  std::array<Point, 4> corners{};  ///< top left, top right, bottom right, bottom left as the image shows it
+  std::optional<Point> eye;        ///< where the camera is; lines from there to the corners are drawn
+  std::string media_type;          ///< "image/png", "image/jpeg"
+  std::string bytes;               ///< the file
+};
+
+struct Layer {
+  std::string name;
+  Scene scene;
+  std::optional<Color> color;  ///< of all its volumes; one from the palette for each volume (or layer) if not given
+  double opacity = 1;          ///< of its facets
+  bool visible = true;         ///< at first; pages can switch it
+  Motion motion;
+  std::vector<Polyline> lines;
+  std::vector<Photo> photos;
+};
+
+/// The colours of a layer's items.
+struct LayerColors {
+  Color layer{};               ///< of the layer as a whole, and of its flat parts
+  std::vector<Color> volumes;  ///< of each volume of the scene
+};
+
+/// Colour `index` of a palette that people with any colour vision can tell apart; repeats after eight.
+Color palette_color(std::size_t index);
+
+/// The colour given, or one for the layer if there are several, or one for each selected volume if there is one layer.
+LayerColors colors_of(const std::vector<Layer>& layers, std::size_t index);
+
+/// The volume whose colour a side of a facet shows to an eye on that side (above or below it): the selected one
+/// behind the facet, or the one in front seen from within; kArtificial for a facet between unselected volumes.
+struct FacetSide {
+  std::uint32_t volume = kArtificial;
+  bool inner = false;  ///< the volume is in front: the eye looks at its wall from within
+};
+FacetSide facet_side(const Scene& scene, const SceneFacet& facet, bool seen_from_above);
+
+/// Smallest and largest coordinates of all layers (visible ones if `only_visible`), their lines and photos, wherever
+/// their motions take them; nothing if there is nothing.
+std::optional<std::array<Point, 2>> bounds_of(const std::vector<Layer>& layers, bool only_visible);
+
+}  // namespace nef::view

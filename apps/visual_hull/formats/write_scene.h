@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "apps/visual_hull/scene/scene.h"
+
+namespace visual_hull {
+
+/// The scene as JSON (scene_json.h) that reads back as the same numbers: those that are doubles as their decimals, in
+/// full, others as fractions. Paths are written as they are. What a scene knows beyond that (its format, the sizes of
+/// images, folders to look in) is not written.
+std::string write_scene_json(const Scene& scene);
+
+}  // namespace visual_hull

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Masks by graph cuts between mixtures of colours: GrabCut (Rother, Kolmogorov and Blake 2004).
+#pragma once
+
+#include <opencv2/core.hpp>
+
+namespace visual_hull {
+
+/// The object in a rectangle of a picture (three channels of 8 bits), whose outside is background. Large pictures are
+/// cut at 800 pixels first and then in a band along that outline. 255 where the object is; the same for the same input.
+cv::Mat cut_in_rectangle(const cv::Mat& picture, const cv::Rect& rectangle);
+
+}  // namespace visual_hull

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Cameras from silhouettes against rendered truth: how near they come, what the hull of them is, what is named, and
+// that nothing moves without a reason.
+#include "apps/visual_hull/refine/refine.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "apps/visual_hull/visual_hull.h"
+#include "nef/base/error.h"
+#include "nef/query/measures/approximate_volume.h"
+#include "tests/visual_hull/refine/camera_difference.h"
+#include "tests/visual_hull/refine/rendered.h"
+
+namespace visual_hull {
+namespace {
+
+using refine::Fault;
+using refine::Model;
+using refine::Refinement;
+using testing::cameras_by;
+using testing::Difference;
+using testing::difference;
+using testing::disturbed;
+using testing::Ellipsoid;
+using testing::generic_object;
+using testing::refined_cameras;
+using testing::rendered_set;
+using testing::ring;
+using testing::Set;
+using testing::Shot;
+
+double volume_of_hull_by(const Set& set, const std::vector<Camera>& cameras) {
+  Scene scene;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    View view;
+    view.name = std::to_string(i);
+    view.camera = cameras[i];
+    view.polygons = set.silhouettes[i].rings;
+    scene.views.push_back(view);
+  }
+  Options options;
+  options.silhouette.simplify.tolerance = 0.5;
+  return nef::approximate_volume(compute(scene, "", options).hull).value;
+}
+
+TEST_CASE("Cameras half a degree, 5 pixels and 1 % off come within .4 pixels of the truth") {
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    const Set set = rendered_set(generic_object(seed), ring(10, false));
+    const std::vector<Shot> given = disturbed(set.truth, 0.5, 5, 1.01, 7 * seed);
+    const Refinement result = refined_cameras(set, given);
+    const Difference before = difference(cameras_by(given), set.truth);
+    const Difference after = difference(cameras_by(result), set.truth);
+    INFO("seed " << seed << ": " << before.pixels << " to " << after.pixels << " px");
+    CHECK(before.pixels > 3);
+    CHECK(result.accepted);
+    CHECK(result.model == Model::kViews);
+    CHECK(after.pixels < 0.4);
+    CHECK(result.after.mean < result.before.mean / 10);
+    CHECK(result.held_out_after.mean < result.held_out_before.mean / 10);
+    // Lengths are those of the given cameras, so volumes are compared in the scale of the truth.
+    const double volume = volume_of_hull_by(set, cameras_by(result)) / std::pow(after.scale, 3);
+    CHECK(volume == Approx(volume_of_hull_by(set, cameras_by(set.truth))).epsilon(0.005));
+  }
+}
+
+TEST_CASE("Cameras of a turntable are found as such, and ten times as well") {
+  for (const std::uint64_t seed : {1U, 2U}) {
+    const Set set = rendered_set(generic_object(seed), ring(16, true));
+    const Refinement result = refined_cameras(set, disturbed(set.truth, 0.5, 5, 1.01, 7 * seed));
+    CHECK(result.model == Model::kTurntable);
+    CHECK(difference(cameras_by(result), set.truth).pixels < 0.1);
+    CHECK(result.focal_factor == Approx(1 / 1.01).epsilon(0.005));
+  }
+}
+
+TEST_CASE("An axis that is off is corrected by four parameters") {
+  const Set set = rendered_set(generic_object(5), ring(16, true));
+  std::vector<Shot> given = set.truth;
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.03, Eigen::Vector3d(1, 0.5, 1).normalized()).toRotationMatrix();
+  const Eigen::Vector3d middle(0, 0, 4);
+  for (Shot& shot : given) {
+    shot.r = turn * shot.r;
+    shot.t = turn * (shot.t - middle) + middle + Eigen::Vector3d(0.02, 0, 0);
+  }
+  const Refinement result = refined_cameras(set, given);
+  CHECK(result.model == Model::kTurntable);
+  CHECK(difference(cameras_by(result), set.truth).pixels < 0.1);
+}
+
+TEST_CASE("Cameras that are right stay as they are, to the last digit") {
+  for (const bool turntable : {false, true}) {
+    const Set set = rendered_set(generic_object(3), ring(12, turntable));
+    const Refinement result = refined_cameras(set, set.truth);
+    CHECK_FALSE(result.accepted);
+    CHECK(result.model == Model::kNone);
+    CHECK(result.before.mean < 0.05);
+    CHECK(result.after.mean == result.before.mean);
+    const std::vector<Camera> given = cameras_by(set.truth);
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      CHECK(result.views[i].camera.matrix() == given[i].matrix());
+      CHECK(result.views[i].fault == Fault::kNone);
+    }
+  }
+}
+
+TEST_CASE("One camera that stands off among right ones is named and put back") {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const bool turned = seed % 2 == 0;
+    const Set set = rendered_set(generic_object(seed), ring(12, false));
+    const std::size_t wrong = seed * 5 % 12;
+    std::vector<Shot> given = set.truth;
+    Shot& shot = given[wrong];
+    if (turned) {
+      const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, static_cast<double>(seed)).normalized();
+      const Eigen::Matrix3d turn = Eigen::AngleAxisd(M_PI / 180, axis).toRotationMatrix();
+      shot.r = turn * shot.r;
+      shot.t = turn * shot.t;
+    } else {
+      shot.t.x() += 2 * shot.t.z() / shot.k(0, 0);
+    }
+    const Refinement result = refined_cameras(set, given);
+    for (std::size_t i = 0; i < result.views.size(); ++i) {
+      CHECK(result.views[i].fault == (i == wrong ? Fault::kCamera : Fault::kNone));
+    }
+    const Difference after = difference(cameras_by(result), set.truth, {wrong});
+    CHECK(after.pixels < 0.4);
+    CHECK(after.views[wrong] < 0.8);
+  }
+}
+
+TEST_CASE("A mask that has lost a part is named, and does not pull the other cameras") {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    Set set = rendered_set(generic_object(seed), ring(12, false));
+    const std::size_t wrong = seed * 5 % 12;
+    const int whole = cv::countNonZero(set.masks[wrong]);
+    int kept = 0;
+    for (int y = 0; y < set.masks[wrong].rows; ++y) {
+      const int in_row = cv::countNonZero(set.masks[wrong].row(y));
+      if (kept > 0.85 * whole) set.masks[wrong].row(y).setTo(0);
+      kept += in_row;
+    }
+    set.silhouettes[wrong] = testing::pixel_silhouette(set.masks[wrong]);
+    const bool off = seed == 3;  // cameras that are off, too
+    const Refinement result = refined_cameras(set, off ? disturbed(set.truth, 0.5, 5, 1, 3) : set.truth);
+    for (std::size_t i = 0; i < result.views.size(); ++i) {
+      CHECK(result.views[i].fault == (i == wrong ? Fault::kMask : Fault::kNone));
+    }
+    const Difference after = difference(cameras_by(result), set.truth, {wrong});
+    CHECK(after.pixels < 0.4);
+    CHECK(result.accepted == off);
+    if (off) CHECK(after.views[wrong] < 2.5);
+  }
+}
+
+TEST_CASE("What a ball does not determine is said") {
+  const std::vector<Ellipsoid> ball{{{0, 0, 0}, 1.5 * Eigen::Matrix3d::Identity()}};
+  const Set set = rendered_set(ball, ring(12, false));
+  const Refinement result = refined_cameras(set, disturbed(set.truth, 0.5, 5, 1.01, 3));
+  CHECK(result.undetermined == std::vector<std::string>{"focal length", "poses of 12 views"});
+  const Set generic = rendered_set(generic_object(2), ring(16, false));
+  const Refinement all = refined_cameras(generic, disturbed(generic.truth, 0.5, 5, 1.01, 3));
+  CHECK(all.undetermined.empty());
+}
+
+TEST_CASE("Refined cameras do not depend on threads") {
+  const Set set = rendered_set(generic_object(6), ring(10, false));
+  const std::vector<Shot> given = disturbed(set.truth, 0.5, 5, 1.01, 5);
+  const std::vector<Camera> one = cameras_by(refined_cameras(set, given, 1));
+  const std::vector<Camera> three = cameras_by(refined_cameras(set, given, 3));
+  for (std::size_t i = 0; i < one.size(); ++i) CHECK(one[i].matrix() == three[i].matrix());
+}
+
+TEST_CASE("A turntable is found from its silhouettes alone, whichever way it turns") {
+  for (const std::uint64_t seed : {1U, 2U}) {
+    std::vector<Shot> shots = ring(16, true, seed == 1 ? 400 : 900, seed == 1 ? 3 : 6);
+    if (seed == 2) std::reverse(shots.begin() + 1, shots.end());
+    const Eigen::Matrix3d roll = Eigen::AngleAxisd(0.14, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    for (Shot& shot : shots) {
+      shot.r = roll * shot.r;
+      shot.t = roll * shot.t;
+    }
+    const Set set = rendered_set(generic_object(seed), shots);
+    std::vector<refine::GivenView> views;
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+      views.push_back({std::to_string(i), Camera(), &set.silhouettes[i], {}, {}});
+    }
+    const ImageSize size{testing::kWidth, testing::kHeight};
+    const Refinement result = refine::refine_cameras(views, {PixelOrigin::kCenter, size}, {});
+    CHECK(result.found);
+    CHECK(result.accepted);
+    CHECK(result.model == Model::kTurntable);
+    CHECK(difference(cameras_by(result), set.truth).pixels < 0.3);
+    CHECK(result.focal == Approx(shots[0].k(0, 0)).epsilon(0.01));
+  }
+}
+
+TEST_CASE("Two views are too few to refine") {
+  const Set set = rendered_set(generic_object(1), ring(2, true));
+  CHECK_THROWS_AS(refined_cameras(set, set.truth), nef::InputError);
+}
+
+}  // namespace
+}  // namespace visual_hull

@@ -9,10 +9,8 @@
 #include "apps/planner/linkage/linkage_checker.h"
 #include "nef/construct/construct.h"
 
+namespace nef::planner {
 namespace {
-
-using namespace nef;
-using namespace nef::planner;
 
 RigidBody box_body(const Rational3& low, const Rational3& high) { return RigidBody::of_set(make_box(low, high)); }
 
@@ -29,9 +27,7 @@ Linkage arm() {
   return result;
 }
 
-}  // namespace
-
-int main() {
+int run() {
   constexpr int kBoxes = 20;
   constexpr int kMotions = 2000;
   std::mt19937 random(1);
@@ -70,4 +66,10 @@ int main() {
     std::cout << kNames[i] << ": " << count[i] << " motions, " << 1e6 * seconds[i] / static_cast<double>(count[i])
               << " us each, " << static_cast<double>(cells[i]) / static_cast<double>(count[i]) << " parts\n";
   }
+  return 0;
 }
+
+}  // namespace
+}  // namespace nef::planner
+
+int main() { return nef::planner::run(); }

@@ -23,10 +23,8 @@
 #include "apps/planner/path/question.h"
 #include "bench/planner/timed_checks.h"
 
+namespace nef::planner {
 namespace {
-
-using namespace nef;           // NOLINT(google-build-using-namespace): this is the program
-using namespace nef::planner;  // NOLINT(google-build-using-namespace)
 
 Scene scene_of(int boxes, unsigned seed) {
   std::mt19937 random(seed);
@@ -235,9 +233,7 @@ void share_of_checks(const Problem& problem, const char* name) {
               setup.haveExactSolutionPath() ? "solved" : "no path", wall, 100 * checks.seconds / wall);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   const int boxes = argc > 1 ? std::atoi(argv[1]) : 200;
   const unsigned seed = argc > 2 ? static_cast<unsigned>(std::atoi(argv[2])) : 1;
   ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
@@ -271,3 +267,8 @@ int main(int argc, char** argv) {
   for (const char* name : {"RRTConnect", "PRM", "EST"}) share_of_checks(problem, name);
   return 0;
 }
+
+}  // namespace
+}  // namespace nef::planner
+
+int main(int argc, char** argv) { return nef::planner::run(argc, argv); }

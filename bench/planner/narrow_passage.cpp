@@ -21,10 +21,9 @@
 #include "apps/planner/ompl/translation_planning.h"
 #include "bench/planner/timed_checks.h"
 
+namespace nef::planner {
 namespace {
 
-using namespace nef;           // NOLINT(google-build-using-namespace): this is the program
-using namespace nef::planner;  // NOLINT(google-build-using-namespace)
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
 
@@ -155,9 +154,7 @@ void time_checks() {
   si->freeStates(states);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
   const double seconds = argc > 1 ? std::atof(argv[1]) : 10;
   const unsigned runs = argc > 2 ? static_cast<unsigned>(std::atoi(argv[2])) : 3;
@@ -173,3 +170,8 @@ int main(int argc, char** argv) {
   time_checks();
   return 0;
 }
+
+}  // namespace
+}  // namespace nef::planner
+
+int main(int argc, char** argv) { return nef::planner::run(argc, argv); }

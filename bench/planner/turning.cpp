@@ -16,10 +16,8 @@
 #include "nef/base/timing/stopwatch.h"
 #include "nef/construct/construct.h"
 
+namespace nef::planner {
 namespace {
-
-using namespace nef;           // NOLINT(google-build-using-namespace): this is the program
-using namespace nef::planner;  // NOLINT(google-build-using-namespace)
 
 struct Question {
   Scene scene;
@@ -135,9 +133,7 @@ double tell(const char* name, const Question& q, std::size_t max_cells = 2000) {
   return seconds;
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   const int scenes = argc > 1 ? std::atoi(argv[1]) : 12;
   const auto first = static_cast<unsigned>(argc > 2 ? std::atoi(argv[2]) : 0);
   const auto power = [](int digits) { return Rational(1, static_cast<unsigned long>(std::pow(10, digits))); };
@@ -155,4 +151,10 @@ int main(int argc, char** argv) {
     most = std::max(most, tell(("dense, seed " + std::to_string(seed)).c_str(), dense(seed)));
   }
   std::printf("the longest of %d dense scenes: %.2f s\n", scenes, most);
+  return 0;
 }
+
+}  // namespace
+}  // namespace nef::planner
+
+int main(int argc, char** argv) { return nef::planner::run(argc, argv); }

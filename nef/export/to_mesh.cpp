@@ -274,14 +274,15 @@ class Exporter {
     return facet.isolated_count == 0 && complex_.corners_of(facet).size() == 3;
   }
 
-  // As many as there are if none stays a polygon: a facet of n corners in c cycles is n + 2 c - 4 triangles.
+  // As many as there are if none stays a polygon: a facet of n corners in c cycles with i points inside is
+  // n + 2 c - 4 + 2 i triangles.
   void reserve_faces() {
     std::size_t cycles = complex_.cycle_begin.size() - 1;
     if (boundary_.size() != complex_.facet_count()) {
       cycles = 0;
       for (const FacetId f : boundary_) cycles += complex_.facets[f].cycle_count;
     }
-    std::size_t count = corner_vertices_.size() + 2 * cycles;
+    std::size_t count = corner_vertices_.size() + 2 * cycles + 2 * complex_.isolated_vertices.size();
     count -= 4 * boundary_.size();
     faces_.face_begin.resize(options_.keep_polygons ? boundary_.size() + 1 : count + 1);
     faces_.corners.resize(options_.keep_polygons ? corner_vertices_.size() : 3 * count);

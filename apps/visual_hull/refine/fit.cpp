@@ -250,6 +250,11 @@ std::vector<MovingCamera> fit(const std::vector<MovingCamera>& start, const std:
 
 namespace {
 
+// The hull of the other views is larger than the object, so lines of sight that pass through it some pixels deep are no
+// contradiction, and those that miss it are: they weigh so many times as much. With equal weights the best pose is one
+// that trades the one for the other, up to 5 pixels off.
+constexpr double kMissed = 10;
+
 // The loss of the rays of one view, and J^T J and J^T r by its own six parameters.
 struct OwnEquations {
   double loss = 0;
@@ -265,11 +270,12 @@ OwnEquations own_equations(const std::vector<MovingCamera>& cameras, const std::
   for (std::size_t k = 0; k < values.size(); ++k) {
     if (!belongs(outlines[view].samples[k], pieces)) continue;
     const double r = values[k].value;
-    own.loss += loss(r, scale) / n;
+    const double w = r < 0 ? kMissed : 1;
+    own.loss += w * loss(r, scale) / n;
     const CoherenceRow d = derivative(cameras, outlines, pivots, view, k, values[k]);
     const double q = 1 + r * r / (scale * scale);
-    own.curvature += d.by_motion[0] * d.by_motion[0].transpose() / (q * q * n);
-    own.slope += d.by_motion[0] * (r / (q * q * n));
+    own.curvature += w * d.by_motion[0] * d.by_motion[0].transpose() / (q * q * n);
+    own.slope += w * d.by_motion[0] * (r / (q * q * n));
   }
   return own;
 }

@@ -67,9 +67,9 @@ std::vector<MovingCamera> fit(const std::vector<MovingCamera>& start, const std:
                               const FitOptions& options, const nef::Monitor& monitor);
 
 /// The camera of one view alone, by the lines of sight through its own outline: those that pass through the space that
-/// the others leave count as those that miss it, so that what a mask has lost is an outlier and not a pull. The others
-/// (`used`) stay. Six parameters; fitted to half of the pieces, and the camera stays as it is unless the loss of the
-/// others falls by a fifth.
+/// the others leave count, too, a tenth of those that miss it, so that what a mask has lost is an outlier and not a
+/// pull. The others (`used`) stay. Six parameters; fitted to half of the pieces, and the camera stays as it is unless
+/// the loss of the others falls by a fifth.
 MovingCamera resect(const std::vector<MovingCamera>& cameras, const std::vector<Outline>& outlines,
                     const std::vector<std::uint8_t>& used, std::size_t view, const nef::Monitor& monitor);
 

@@ -46,8 +46,20 @@ double volume_of_hull_by(const Set& set, const std::vector<Camera>& cameras) {
   return nef::approximate_volume(compute(scene, "", options).hull).value;
 }
 
+// Takes the lowest rows of a mask away, up to a share of its pixels.
+void cut_lowest(Set& set, std::size_t view, double share) {
+  cv::Mat& mask = set.masks[view];
+  double left = (1 - share) * cv::countNonZero(mask);
+  for (int y = 0; y < mask.rows; ++y) {
+    const int in_row = cv::countNonZero(mask.row(y));
+    if (left < 0) mask.row(y).setTo(0);
+    left -= in_row;
+  }
+  set.silhouettes[view] = testing::pixel_silhouette(mask);
+}
+
 TEST_CASE("Cameras half a degree, 5 pixels and 1 % off come within .4 pixels of the truth") {
-  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+  for (const std::uint64_t seed : {1U, 2U}) {
     const Set set = rendered_set(generic_object(seed), ring(10, false));
     const std::vector<Shot> given = disturbed(set.truth, 0.5, 5, 1.01, 7 * seed);
     const Refinement result = refined_cameras(set, given);
@@ -67,17 +79,15 @@ TEST_CASE("Cameras half a degree, 5 pixels and 1 % off come within .4 pixels of 
 }
 
 TEST_CASE("Cameras of a turntable are found as such, and ten times as well") {
-  for (const std::uint64_t seed : {1U, 2U}) {
-    const Set set = rendered_set(generic_object(seed), ring(16, true));
-    const Refinement result = refined_cameras(set, disturbed(set.truth, 0.5, 5, 1.01, 7 * seed));
-    CHECK(result.model == Model::kTurntable);
-    CHECK(difference(cameras_by(result), set.truth).pixels < 0.1);
-    CHECK(result.focal_factor == Approx(1 / 1.01).epsilon(0.005));
-  }
+  const Set set = rendered_set(generic_object(1), ring(12, true));
+  const Refinement result = refined_cameras(set, disturbed(set.truth, 0.5, 5, 1.01, 7));
+  CHECK(result.model == Model::kTurntable);
+  CHECK(difference(cameras_by(result), set.truth).pixels < 0.1);
+  CHECK(result.focal_factor == Approx(1 / 1.01).epsilon(0.005));
 }
 
 TEST_CASE("An axis that is off is corrected by four parameters") {
-  const Set set = rendered_set(generic_object(5), ring(16, true));
+  const Set set = rendered_set(generic_object(5), ring(12, true));
   std::vector<Shot> given = set.truth;
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.03, Eigen::Vector3d(1, 0.5, 1).normalized()).toRotationMatrix();
   const Eigen::Vector3d middle(0, 0, 4);
@@ -107,7 +117,7 @@ TEST_CASE("Cameras that are right stay as they are, to the last digit") {
 }
 
 TEST_CASE("One camera that stands off among right ones is named and put back") {
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     const bool turned = seed % 2 == 0;
     const Set set = rendered_set(generic_object(seed), ring(12, false));
     const std::size_t wrong = seed * 5 % 12;
@@ -132,17 +142,10 @@ TEST_CASE("One camera that stands off among right ones is named and put back") {
 }
 
 TEST_CASE("A mask that has lost a part is named, and does not pull the other cameras") {
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+  for (const std::uint64_t seed : {1U, 3U}) {
     Set set = rendered_set(generic_object(seed), ring(12, false));
     const std::size_t wrong = seed * 5 % 12;
-    const int whole = cv::countNonZero(set.masks[wrong]);
-    int kept = 0;
-    for (int y = 0; y < set.masks[wrong].rows; ++y) {
-      const int in_row = cv::countNonZero(set.masks[wrong].row(y));
-      if (kept > 0.85 * whole) set.masks[wrong].row(y).setTo(0);
-      kept += in_row;
-    }
-    set.silhouettes[wrong] = testing::pixel_silhouette(set.masks[wrong]);
+    cut_lowest(set, wrong, 0.15);
     const bool off = seed == 3;  // cameras that are off, too
     const Refinement result = refined_cameras(set, off ? disturbed(set.truth, 0.5, 5, 1, 3) : set.truth);
     for (std::size_t i = 0; i < result.views.size(); ++i) {
@@ -151,7 +154,28 @@ TEST_CASE("A mask that has lost a part is named, and does not pull the other cam
     const Difference after = difference(cameras_by(result), set.truth, {wrong});
     CHECK(after.pixels < 0.4);
     CHECK(result.accepted == off);
-    if (off) CHECK(after.views[wrong] < 2.5);
+    if (off) CHECK(after.views[wrong] < 1.5);
+  }
+}
+
+TEST_CASE("A view is placed where it was, wherever the search begins and whatever its mask has lost") {
+  Set set = rendered_set(generic_object(3), ring(12, false));
+  cut_lowest(set, 3, 0.15);
+  std::vector<refine::MovingCamera> cameras;
+  std::vector<refine::Outline> outlines;
+  for (std::size_t i = 0; i < set.truth.size(); ++i) {
+    cameras.emplace_back(set.truth[i].k, set.truth[i].r, set.truth[i].t);
+    outlines.push_back(refine::make_outline(set.silhouettes[i], {}, {}, PixelOrigin::kCenter, 120));
+  }
+  const refine::MovingCamera truth = cameras[3];
+  std::vector<std::uint8_t> used(cameras.size(), 1);
+  used[3] = 0;
+  const std::vector<Eigen::Vector3d> points = refine::ball_points({0, 0, 0}, testing::kObjectRadius);
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+    const Shot start = disturbed(set.truth, 1, 5, 1, seed)[3];
+    cameras[3] = refine::MovingCamera(start.k, start.r, start.t);
+    CHECK(refine::image_distance(cameras[3], truth, points) > 4);
+    CHECK(refine::image_distance(refine::resect(cameras, outlines, used, 3, {}), truth, points) < 1.5);
   }
 }
 
@@ -160,7 +184,7 @@ TEST_CASE("What a ball does not determine is said") {
   const Set set = rendered_set(ball, ring(12, false));
   const Refinement result = refined_cameras(set, disturbed(set.truth, 0.5, 5, 1.01, 3));
   CHECK(result.undetermined == std::vector<std::string>{"focal length", "poses of 12 views"});
-  const Set generic = rendered_set(generic_object(2), ring(16, false));
+  const Set generic = rendered_set(generic_object(2), ring(12, false));
   const Refinement all = refined_cameras(generic, disturbed(generic.truth, 0.5, 5, 1.01, 3));
   CHECK(all.undetermined.empty());
 }
@@ -175,7 +199,7 @@ TEST_CASE("Refined cameras do not depend on threads") {
 
 TEST_CASE("A turntable is found from its silhouettes alone, whichever way it turns") {
   for (const std::uint64_t seed : {1U, 2U}) {
-    std::vector<Shot> shots = ring(16, true, seed == 1 ? 400 : 900, seed == 1 ? 3 : 6);
+    std::vector<Shot> shots = ring(10, true, seed == 1 ? 400 : 900, seed == 1 ? 3 : 6);
     if (seed == 2) std::reverse(shots.begin() + 1, shots.end());
     const Eigen::Matrix3d roll = Eigen::AngleAxisd(0.14, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     for (Shot& shot : shots) {

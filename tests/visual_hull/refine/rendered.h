@@ -83,20 +83,27 @@ inline std::vector<Shot> ring(int count, bool turntable, double focal = 550, dou
   return shots;
 }
 
-/// 255 where the ray through the centre of a pixel meets the object.
+/// 255 where the ray through the centre of a pixel meets the object. Along a row of pixels, what is compared is a
+/// quadratic function of x.
 inline cv::Mat render(const std::vector<Ellipsoid>& object, const Shot& shot) {
   cv::Mat mask(kHeight, kWidth, CV_8U, cv::Scalar(0));
   const Eigen::Vector3d eye = -shot.r.transpose() * shot.t;
   const Eigen::Matrix3d back = (shot.k * shot.r).inverse();
+  const Eigen::Vector3d step = back.col(0);
   for (const Ellipsoid& e : object) {
-    const Eigen::Vector3d away = eye - e.centre;
-    const Eigen::Vector3d a = e.form * away;
-    const double c = away.dot(a) - 1;
+    const Eigen::Vector3d a = e.form * (eye - e.centre);
+    const double c = (eye - e.centre).dot(a) - 1;
+    const double b1 = step.dot(a);
+    const double q2 = step.dot(e.form * step);
     for (int y = 0; y < kHeight; ++y) {
+      const Eigen::Vector3d first = back * Eigen::Vector3d(0, y, 1);
+      const double b0 = first.dot(a);
+      const double q0 = first.dot(e.form * first);
+      const double q1 = 2 * step.dot(e.form * first);
+      auto* const row = mask.ptr<std::uint8_t>(y);
       for (int x = 0; x < kWidth; ++x) {
-        const Eigen::Vector3d d = back * Eigen::Vector3d(x, y, 1);
-        const double b = d.dot(a);
-        if (b < 0 && b * b >= c * d.dot(e.form * d)) mask.at<std::uint8_t>(y, x) = 255;
+        const double b = b0 + x * b1;
+        if (b < 0 && b * b >= c * (q0 + x * (q1 + x * q2))) row[x] = 255;
       }
     }
   }

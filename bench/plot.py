@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Draws the tables of benchmarks as figures (SVG), by what their columns are called.
 
-  bench/plot.py docs/benchmarks.md -o docs/pictures     the figures of the page, from its own tables
+  bench/plot.py bench/results/*.md -o docs/pictures     the plots of docs/benchmarks.md
   bench/run.py --sweep --plot FOLDER                    the same as a benchmark ends
   nef_bench_minkowski | bench/plot.py - -o FOLDER       tables from a pipe
 
@@ -254,17 +254,19 @@ def draw(text: str, folder: str) -> list[str]:
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("input", help="a file with tables, - for standard input")
+    parser.add_argument("input", nargs="+", help="files with tables, - for standard input")
     parser.add_argument("-o", "--output", required=True, metavar="FOLDER", help="where the figures go")
     args = parser.parse_args()
-    if args.input == "-":
-        text = sys.stdin.read()
-    else:
-        with open(args.input, encoding="utf-8") as file:
-            text = file.read()
+    text = ""
+    for name in args.input:
+        if name == "-":
+            text += sys.stdin.read() + "\n"
+            continue
+        with open(name, encoding="utf-8") as file:
+            text += file.read() + "\n"
     files = draw(text, args.output)
     if not files:
-        print(f"bench/plot.py: {args.input}: there is no table of a benchmark in it", file=sys.stderr)
+        print(f"bench/plot.py: {' '.join(args.input)}: there is no table of a benchmark in it", file=sys.stderr)
         return 2
     for path in files:
         print(path)

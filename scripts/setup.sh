@@ -16,6 +16,8 @@ nef_test_packages=(catch2 librapidcheck-dev chromium npm libopenmpi-dev openmpi-
 nef_oracle_packages=(libcgal-dev)
 # Programs that read what the suite writes; CI asks those that it can install.
 nef_foreign_packages=(admesh assimp-utils openscad prusa-slicer)
+# The site of the documentation (scripts/docs.sh).
+nef_docs_packages=(mkdocs mkdocs-material doxygen python3-sphinx)
 # The runtimes of clang's sanitizers are only recommended by clang.
 nef_lint_packages=(clang libclang-rt-dev clang-format clang-tidy)
 

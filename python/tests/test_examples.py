@@ -47,3 +47,17 @@ def test_docstrings(name, needs):
     module = needs(name)
     failed, tried = doctest.testmod(module)
     assert tried > 0 and failed == 0
+
+
+@pytest.mark.parametrize("page", ["docs/tutorials/python.md", "README.md"])
+def test_pages(page, needs, tmp_path, monkeypatch):
+    needs("minkowski")
+    needs("planner")
+    monkeypatch.chdir(tmp_path)
+    path = EXAMPLES.parent.parent / page
+    # A fence ends the output above it.
+    text = path.read_text(encoding="utf-8").replace("\n```\n", "\n\n")
+    parser = doctest.DocTestParser()
+    runner = doctest.DocTestRunner(optionflags=doctest.ELLIPSIS)
+    runner.run(parser.get_doctest(text, {}, page, str(path), 0))
+    assert runner.tries > 0 and runner.failures == 0

@@ -32,3 +32,13 @@ check(sum_example 27 apps/minkowski/libnef_minkowski.a)
 check(hull_example 36 apps/visual_hull/libnef_visual_hull.a)
 check(plan_example "a path" apps/planner/libnef_planner.a)
 check(view_example "a picture of 64x48" apps/view/libnef_view.a)
+
+# The projects of the tutorials, from their pages.
+if(PYTHON)
+  set(pages ${SOURCE}/../../../docs/tutorials/cmake.md)
+  if(EXISTS ${BUILD}/apps/planner/libnef_planner.a)
+    list(APPEND pages ${SOURCE}/../../../docs/tutorials/ompl.md)
+  endif()
+  run(${CMAKE_COMMAND} -E env NEF_PREFIX=${WORK}/installed CXX=${COMPILER} ${PYTHON} ${SOURCE}/../../docs/run_commands.py
+      ${SOURCE}/../../.. ${BUILD}/bin ${WORK}/tutorials ${pages})
+endif()

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "nef/import/repair/doubled_faces.h"
+
 namespace nef {
 namespace {
 
@@ -56,6 +58,16 @@ CheckedSurface::CheckedSurface(const Mesh& mesh, Extent extent, Crossings rule, 
       static_cast<std::size_t>(std::count(surface_->defects.begin(), surface_->defects.end(), FaceDefect::kNoArea));
   // Without a face that has no area, its neighbours meet in parts of edges.
   in_contact_ = in_contact_ || faces_without_area_ > 0;
+}
+
+std::size_t CheckedSurface::cancelled_faces() const {
+  const auto is_double = [](const MeshProblem& problem) { return problem.kind == MeshProblemKind::kDuplicateFace; };
+  if (std::none_of(problems_.begin(), problems_.end(), is_double)) return 0;
+  std::vector<std::vector<std::uint32_t>> rings(mesh_->face_count());
+  for (std::uint32_t f = 0; f < mesh_->face_count(); ++f) {
+    for (const std::uint32_t v : mesh_->face(f)) rings[f].push_back(surface_->place[v]);
+  }
+  return count_cancelled(std::move(rings));
 }
 
 void CheckedSurface::require_legal(const Monitor& monitor) {

@@ -75,6 +75,10 @@ class CheckedSurface {
 
   [[nodiscard]] std::size_t faces_without_area() const { return faces_without_area_; }
 
+  /// Faces of components that enclose nothing, as each face has another one on its back (count_cancelled). O(n log n)
+  /// if there are faces back to back.
+  [[nodiscard]] std::size_t cancelled_faces() const;
+
   /// What was found of the mesh.
   struct Found {
     std::unique_ptr<const MeshSurface> surface;

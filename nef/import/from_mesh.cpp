@@ -9,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "nef/base/counted.h"
 #include "nef/base/error.h"
 #include "nef/base/monitor.h"
 #include "nef/base/union_find.h"
@@ -95,10 +96,14 @@ Covering covering_for(Crossings rule) {
   return Covering::kSigned;
 }
 
-void note_faces_without_area(const CheckedSurface& checked, Messages* messages) {
-  const std::size_t count = checked.faces_without_area();
-  if (count == 0 || messages == nullptr) return;
-  messages->push_back(std::to_string(count) + (count == 1 ? " face" : " faces") + " without area left out");
+void note_faces_left_out(const CheckedSurface& checked, Messages* messages) {
+  if (messages == nullptr) return;
+  if (const std::size_t count = checked.faces_without_area(); count > 0) {
+    messages->push_back(counted(count, "face", "faces") + " without area left out");
+  }
+  if (const std::size_t count = checked.cancelled_faces(); count > 0) {
+    messages->push_back(counted(count, "face", "faces") + " back to back with others left out: they enclose nothing");
+  }
 }
 
 // By the winding numbers of the volumes between the faces.
@@ -140,7 +145,7 @@ WindingVolume measured(const Polyhedron& set, Measure measure, const MeshOptions
 
 ResolvedMesh resolve_mesh(CheckedSurface&& checked, const MeshOptions& options, Messages* messages, Measure measure) {
   checked.require_legal(options.monitor);
-  note_faces_without_area(checked, messages);
+  note_faces_left_out(checked, messages);
   const FillOptions fill{.rule = options.crossings,
                          .covering = covering_for(options.crossings),
                          .inside_out = checked.inside_out() && options.crossings != Crossings::kRefuse,

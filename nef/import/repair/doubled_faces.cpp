@@ -86,6 +86,28 @@ class Copies {
     return result;
   }
 
+  std::size_t count_cancelled() {
+    find_places();
+    UnionFind components(rings_.size());
+    std::unordered_map<std::uint64_t, std::uint32_t> face_at;  // a face at each side
+    for (std::uint32_t f = 0; f < rings_.size(); ++f) {
+      const Ring& ring = rings_[f];
+      for (std::size_t i = 0; i < ring.size(); ++i) {
+        const std::uint32_t u = ring[i];
+        const std::uint32_t v = ring[(i + 1) % ring.size()];
+        components.unite(face_at.emplace(pair_key(std::min(u, v), std::max(u, v)), f).first->second, f);
+      }
+    }
+    std::vector<bool> encloses(rings_.size(), false);
+    for (std::uint32_t f = 0; f < rings_.size(); ++f) {
+      const Place& there = places_[place_of_[f]];
+      if (2 * there.forward != there.faces) encloses[components.find(f)] = true;
+    }
+    std::size_t count = 0;
+    for (std::uint32_t f = 0; f < rings_.size(); ++f) count += encloses[components.find(f)] ? 0 : 1;
+    return count;
+  }
+
  private:
   // Where faces have the same ring, turned either way.
   struct Place {
@@ -219,5 +241,7 @@ std::vector<Ring> without_copies(std::vector<Ring> rings, std::vector<std::uint3
 std::vector<std::uint32_t> repeated(std::vector<Ring> rings) { return Copies(std::move(rings)).repeated(); }
 
 std::vector<bool> doubled(std::vector<Ring> rings) { return Copies(std::move(rings)).doubled(); }
+
+std::size_t count_cancelled(std::vector<Ring> rings) { return Copies(std::move(rings)).count_cancelled(); }
 
 }  // namespace nef

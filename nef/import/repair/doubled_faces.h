@@ -3,6 +3,7 @@
 // Faces that stand twice in a mesh: walls between solids, and copies.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -28,5 +29,9 @@ std::vector<std::uint32_t> repeated(std::vector<std::vector<std::uint32_t>> ring
 
 /// For each face whether another one stands in the same place. O(n log n).
 std::vector<bool> doubled(std::vector<std::vector<std::uint32_t>> rings);
+
+/// How many faces belong to components, connected by sides, in which as many faces stand in each place turned one way
+/// as the other: they enclose nothing, as a solid that stands twice in a mesh, once inside out. O(n log n).
+std::size_t count_cancelled(std::vector<std::vector<std::uint32_t>> rings);
 
 }  // namespace nef

@@ -283,6 +283,27 @@ TEST_CASE("Boxes glued face to face lose the wall between them", "[winding]") {
   CHECK_FALSE(refusal(mesh_of({{{0, 0, 0}, {1, 1, 1}}, {{0, 0, 0}, {1, 1, 1}, true}})).empty());
 }
 
+TEST_CASE("A solid that stands twice in a mesh, once inside out, is told to enclose nothing", "[winding]") {
+  const auto notes = [](const std::vector<Brick>& bricks, const Polyhedron& expected) {
+    Messages messages;
+    CHECK(equal(from_mesh(mesh_of(bricks), {.crossings = Crossings::kUnion}, &messages), expected));
+    return messages;
+  };
+  const Brick box{{0, 0, 0}, {4, 4, 4}};
+  const Polyhedron set = make_box({0, 0, 0}, {4, 4, 4});
+  const Messages told{"12 faces back to back with others left out: they enclose nothing"};
+  CHECK(notes({box, {{6, 0, 0}, {7, 1, 1}}, {{6, 0, 0}, {7, 1, 1}, true}}, set) == told);
+  // A cavity that another solid fills.
+  CHECK(notes({box, {{1, 1, 1}, {2, 2, 2}, true}, {{1, 1, 1}, {2, 2, 2}}}, set) == told);
+  // Walls between solids are nothing to tell, also where a solid has others on all sides.
+  std::vector<Brick> block;
+  for (int i = 0; i < 27; ++i) {
+    const Low low{i % 3, i / 3 % 3, i / 9};
+    block.push_back({low, {low[0] + 1, low[1] + 1, low[2] + 1}});
+  }
+  CHECK(notes(block, make_box({0, 0, 0}, {3, 3, 3})).empty());
+}
+
 TEST_CASE("Where faces share vertices, no checks are needed to find what is wrong with it", "[winding]") {
   const Mesh glued = mesh_of({{{0, 0, 0}, {1, 1, 1}}, {{1, 0, 0}, {2, 1, 1}}});
   CHECK(equal(from_mesh(glued, {.check = false}), make_box({0, 0, 0}, {2, 1, 1})));

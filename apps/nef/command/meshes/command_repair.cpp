@@ -232,6 +232,7 @@ void run_repair(Session& session, RepairFlags& flags) {
   const bool solid = repaired.problem.empty();
   store(session, repaired);
   for (const std::string& line : repaired.done) session.say(line);
+  session.note_all(repaired.notes);
   session.say(solid ? (repaired.done.empty() ? "nothing to repair" : "the mesh bounds a solid now")
                     : "the mesh bounds no solid still: " + repaired.problem +
                           advice_about(repaired, options.close_percent) +

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Whether long sources open with what they do, whether the pages name files that exist (every path in backticks that begins
 with a folder of the repository, and every relative link), whether ctest can run every test by its name, and whether each
-source has a test near it (scripts/tests_of.py). Prints what does not hold; exits 1 if anything does not.
+source has a test near it (scripts/tests_of.py), and whether recipes of packages are of this version. Prints what does not hold; exits 1 if anything does not.
 
 Usage: scripts/check_sources.py
 """
@@ -77,8 +77,16 @@ def untested_sources() -> list[str]:
     return [f"{source} is far from any test: {advice}" for source in tests_of.untested()]
 
 
+def other_versions() -> list[str]:
+    """Recipes of packages that name another version than CMakeLists.txt does."""
+    version = re.search(r"project\(nef_suite VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
+    recipes = {"packaging/vcpkg/vcpkg.json": r'"version-semver": "(.*)"', "packaging/conda/recipe.yaml": r'version: "(.*)"'}
+    named = {path: re.search(pattern, (ROOT / path).read_text(encoding="utf-8")).group(1) for path, pattern in recipes.items()}
+    return [f"{path} is of version {other}, CMakeLists.txt of {version}" for path, other in named.items() if other != version]
+
+
 def main() -> int:
-    complaints = silent_sources() + untested_sources() + unrunnable_tests() + [line for page in pages() for line in dead_paths(page)]
+    complaints = other_versions() + silent_sources() + untested_sources() + unrunnable_tests() + [line for page in pages() for line in dead_paths(page)]
     print("\n".join(complaints), end="\n" if complaints else "")
     return 1 if complaints else 0
 

@@ -33,6 +33,21 @@ check(hull_example 36 apps/visual_hull/libnef_visual_hull.a)
 check(plan_example "a path" apps/planner/libnef_planner.a)
 check(view_example "a picture of 64x48" apps/view/libnef_view.a)
 
+# Without CMake.
+find_program(PKG_CONFIG pkg-config)
+file(GLOB_RECURSE pc ${WORK}/installed/nef.pc)
+if(PKG_CONFIG)
+  get_filename_component(folder ${pc} DIRECTORY)
+  set(ENV{PKG_CONFIG_PATH} ${folder})
+  run(${PKG_CONFIG} --cflags --libs nef)
+  separate_arguments(flags UNIX_COMMAND "${output}")
+  run(${COMPILER} -std=c++20 ${SOURCE}/plain.cpp -o ${WORK}/plain_example ${flags})
+  run(${WORK}/plain_example)
+  if(NOT output STREQUAL "4\n")
+    message(FATAL_ERROR "without CMake, the example printed '${output}' instead of 4")
+  endif()
+endif()
+
 # The projects of the tutorials, from their pages.
 if(PYTHON)
   set(pages ${SOURCE}/../../../docs/tutorials/cmake.md)

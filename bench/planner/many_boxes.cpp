@@ -108,7 +108,7 @@ void time_changes(const Problem& problem, int changes) {
   for (int i = 0; i < changes; ++i) {
     const Polyhedron box = further_box(random);
     ProcessStopwatch watch;
-    Polyhedron set = with_obstacle(scene, problem.free_space().set(), box);
+    Polyhedron set = free_positions_after({std::nullopt, box}, scene, problem.free_space().set());
     const double positions = 1e3 * watch.lap();
     const FreeSpace free(std::move(set));
     const double cells = 1e3 * watch.lap();

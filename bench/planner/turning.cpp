@@ -124,7 +124,7 @@ Question dense(unsigned seed) {
 // Returns the seconds.
 double tell(const char* name, const Question& q, std::size_t max_cells = 2000) {
   const ProcessStopwatch watch;
-  const TurningAnswer answer = find_turning_path(q.scene, q.turning, {.max_cells = max_cells, .stop = {}});
+  const TurningAnswer answer = find_turning_path(q.scene, q.turning, {.max_cells = max_cells});
   const double seconds = watch.seconds();
   static constexpr const char* kNames[] = {"path", "infeasible", "undecided", "invalid start", "invalid goal"};
   std::printf("%-26s %-11s %4zu cells, %3zu looked at, %6.2f s\n", name,

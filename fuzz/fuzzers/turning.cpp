@@ -102,7 +102,7 @@ class TurningCase {
   explicit TurningCase(const Case& the_case) : case_(the_case) { draw(); }
 
   void run() {
-    const TurningAnswer answer = planner::find_turning_path(scene_, question_, {.max_cells = 40, .stop = {}});
+    const TurningAnswer answer = planner::find_turning_path(scene_, question_, {.max_cells = 40});
     for (const Polygon& polygon : robot_) robot_shapes_.push_back(shape_of(polygon));
     for (const Polygon& polygon : obstacles_) obstacle_shapes_.push_back(shape_of(polygon));
     using Status = TurningAnswer::Status;

@@ -264,18 +264,17 @@ TEST_CASE("flags that all programs have") {
 
 TEST_CASE("long work tells how far it is") {
   const Scene rail = load("s9_gate_and_rail");
-  BuildOptions options;
   std::vector<std::string> phases;
   std::size_t last = 0;
-  options.progress = [&](const std::string& phase, std::size_t done, std::size_t total) {
-    if (phases.empty() || phases.back() != phase) phases.push_back(phase);
+  const ProgressFunction told = [&](const char* phase, std::size_t done, std::size_t total) {
+    if (phases.empty() || phases.back() != phase) phases.emplace_back(phase);
     if (total > 0) {
       CHECK(done <= total);
       CHECK(done >= last);
       last = done;
     }
   };
-  const Problem problem(rail, options);
+  const Problem problem(rail, Monitor().telling(told));
   CHECK(phases == std::vector<std::string>{"configuration space", "roadmap"});
   CHECK(last > 0);
 }

@@ -56,7 +56,7 @@ Blocking::Body Blocking::box_body(std::size_t a, std::size_t b) const {
 const std::vector<Blocking::Body>& Blocking::bodies(std::size_t a, std::size_t b) {
   std::optional<std::vector<Body>>& known = pair(a, b).bodies;
   if (known) return *known;
-  known.emplace();
+  std::vector<Body> made;
   for (const std::vector<Rational3>& p : pieces_[a]) {
     for (const std::vector<Rational3>& q : pieces_[b]) {
       std::vector<Rational3> differences;
@@ -64,7 +64,7 @@ const std::vector<Blocking::Body>& Blocking::bodies(std::size_t a, std::size_t b
         for (const Rational3& y : q) differences.push_back(minus(y, x));
       }
       const Mesh mesh = minkowski::hull_cell(differences, monitor_).mesh;
-      Body& body = known->emplace_back();
+      Body& body = made.emplace_back();
       for (std::size_t f = 0; f < mesh.face_count(); ++f) {
         const auto ring = mesh.face(f);
         const Rational3& corner = mesh.vertices[ring[0]];
@@ -73,7 +73,7 @@ const std::vector<Blocking::Body>& Blocking::bodies(std::size_t a, std::size_t b
       }
     }
   }
-  return *known;
+  return known.emplace(std::move(made));
 }
 
 // The parameters t > 0 with normal * d t < offset for all faces are an open interval.

@@ -29,23 +29,16 @@ Rational3 negative(const Rational3& d) { return {-d[0], -d[1], -d[2]}; }
 
 class TakingApart {
  public:
-  TakingApart(const Assembly& assembly, const DisassemblyOptions& options)
+  TakingApart(const Assembly& assembly, const std::optional<unsigned>& digits, const Monitor& monitor)
       : assembly_(assembly),
-        progress_(options.progress),
-        digits_(options.digits),
-        outer_(options.monitor),
-        stop_(options.stop, options.monitor),
-        monitor_(stop_.monitor()),
-        blocking_(assembly.parts, options.monitor) {
+        digits_(digits),
+        told_(monitor),
+        monitor_(monitor.quiet()),
+        blocking_(assembly.parts, monitor_) {
     for (const Polyhedron& part : assembly.parts) boxes_.push_back(*bounding_box(part));
   }
 
   Disassembly run() {
-    result_.overlap = blocking_.overlapping();
-    if (result_.overlap) return std::move(result_);
-    const std::optional<std::vector<Rational3>> all = blocking_.directions();
-    tells_all_ = all.has_value();
-    directions_ = all ? *all : axes();
     PartSet whole;
     for (std::size_t i = 0; i < assembly_.parts.size(); ++i) whole.push_back(i);
     std::vector<PartSet> together{whole};
@@ -53,9 +46,16 @@ class TakingApart {
       const PartSet parts = together.back();
       together.pop_back();
       if (parts.size() < 2) continue;
-      if (progress_) progress_(result_.steps.size());
-      std::optional<DisassemblyStep> step = straight_step(parts);
-      if (!step) step = planned_step(parts);
+      told_.tell_progress("taking apart", result_.steps.size(), assembly_.parts.size() - 1);
+      proved_below_ = 1;
+      std::optional<DisassemblyStep> step;
+      try {
+        if (directions_.empty() && !begin()) break;
+        step = straight_step(parts);
+        if (!step) step = planned_step(parts);
+      } catch (const Interrupted&) {
+        result_.undecided.push_back({parts, proved_below_});
+      }
       if (!step) continue;              // stuck, or undecided
       together.push_back(step->parts);  // comes after the rest
       together.push_back(step->stay);
@@ -65,6 +65,16 @@ class TakingApart {
   }
 
  private:
+  // Finds the directions to try; false if parts overlap.
+  bool begin() {
+    result_.overlap = blocking_.overlapping();
+    if (result_.overlap) return false;
+    const std::optional<std::vector<Rational3>> all = blocking_.directions();
+    tells_all_ = all.has_value();
+    directions_ = all ? *all : axes();
+    return true;
+  }
+
   static std::vector<Rational3> axes() {
     std::vector<Rational3> result;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -200,9 +210,8 @@ class TakingApart {
       ExactPath way = way_out(*moving, stay);
       return DisassemblyStep{*moving, stay, std::move(way.points), false, std::move(way.unrounded)};
     } catch (const Interrupted&) {
-      outer_.check_interruption();  // the caller stops everything
-      result_.undecided.push_back({parts, search.proved_below()});
-      return std::nullopt;
+      proved_below_ = search.proved_below();
+      throw;
     }
   }
 
@@ -278,11 +287,10 @@ class TakingApart {
   }
 
   const Assembly& assembly_;
-  const std::function<void(std::size_t)>& progress_;
   std::optional<unsigned> digits_;
-  Monitor outer_;
-  StopQuestion stop_;
-  Monitor monitor_;  // stopped by the options, too
+  Monitor told_;  // of steps
+  Monitor monitor_;
+  std::size_t proved_below_ = 1;  // of the parts that are looked at
   Blocking blocking_;
   std::vector<std::array<Rational3, 2>> boxes_;  // of the parts
   std::vector<Rational3> directions_;
@@ -293,8 +301,8 @@ class TakingApart {
 
 }  // namespace
 
-Disassembly take_apart(const Assembly& assembly, const DisassemblyOptions& options) {
-  return TakingApart(assembly, options).run();
+Disassembly take_apart(const Assembly& assembly, const std::optional<unsigned>& digits, const Monitor& monitor) {
+  return TakingApart(assembly, digits, monitor).run();
 }
 
 }  // namespace nef::planner

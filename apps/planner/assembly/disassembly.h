@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -47,16 +46,6 @@ struct Disassembly {
       overlap;  ///< two parts that overlap at the beginning: nothing done
 };
 
-struct DisassemblyOptions {
-  /// Called before each step with the number of steps so far.
-  std::function<void(std::size_t steps)> progress;
-  /// Way-points have at most so many decimals where that is free, ends always.
-  std::optional<unsigned> digits;
-  /// Asked now and then; once it is true, what is not decided by then stays undecided.
-  std::function<bool()> stop;
-  Monitor monitor;
-};
-
 /// Takes parts or subassemblies away, one after the other, until all are apart or what remains is stuck. What is taken
 /// away together comes apart afterwards. Contact is allowed everywhere. Nothing is lost by the order: what can leave a
 /// set of parts can leave each of its subsets, so a step that is possible stays possible.
@@ -66,6 +55,10 @@ struct DisassemblyOptions {
 /// are looked for by who has to come along (separation.h), where a set may leave if it can begin to move, and if the
 /// component of its exact free space is unbounded. The free positions of a set are those that all pairs of one moving
 /// and one resting part have in common, so there is one sum for each pair of parts however many sets are asked about.
-Disassembly take_apart(const Assembly& assembly, const DisassemblyOptions& options = {});
+///
+/// Way-points have at most so many decimals, `digits`, where that is free, ends always. What is not decided when the
+/// monitor stops the search is `undecided`; it is told of steps.
+Disassembly take_apart(const Assembly& assembly, const std::optional<unsigned>& digits = std::nullopt,
+                       const Monitor& monitor = {});
 
 }  // namespace nef::planner

@@ -55,10 +55,9 @@ Examples:
 
 void declare_ompl(CLI::App& app, Arguments& a) {
   app.add_option("--ompl", a.ompl, "Use this planner of OMPL on the exact free space");
-  app.add_option("--time", a.seconds,
+  app.add_option("--time", a.time,
                  "Seconds after which the answer is undecided; with --ompl or --benchmark, for each run of a planner")
-      ->check(CLI::Range(1e-3, 1e6))
-      ->each([&a](const std::string&) { a.time_given = true; });
+      ->check(CLI::Range(1e-3, 1e6));
   app.add_option("--runs", a.runs, "Runs of each OMPL planner")->check(CLI::Range(1U, 1000000U));
   app.add_option("--benchmark", a.benchmark, "Write OMPL's benchmark log, our planner and --planners in it");
   app.add_option("--planners", a.planners, "OMPL planners for --benchmark")->delimiter(',');

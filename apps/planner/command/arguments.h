@@ -43,8 +43,7 @@ struct Arguments {
   std::string benchmark;
   std::vector<std::string> planners{"RRTConnect", "PRMstar", "BITstar"};
   PathOptions path;
-  double seconds = 10;
-  bool time_given = false;
+  std::optional<double> time;  ///< seconds
   std::size_t max_cells = 2000;
   unsigned runs = 1;
   bool tight = false;

@@ -15,6 +15,7 @@
 #include "apps/program/run_report.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
+#include "nef/base/timing/time_limit.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/number/brief_text.h"
@@ -136,12 +137,13 @@ int tell_free_directions(const Arguments& a, const Assembly& assembly) {
   if (found == assembly.names.end()) {
     throw InputError("--free-directions " + a.free_directions + ": " + a.assembly + " has no such part");
   }
-  if (const auto overlap = Blocking(assembly.parts, {}).overlapping()) {
+  if (const auto overlap = Blocking(assembly.parts, a.session.monitor).overlapping()) {
     throw InputError(a.assembly + ": " + assembly.names[overlap->first] + " and " + assembly.names[overlap->second] +
                      " overlap");
   }
   const Stopwatch watch;
-  const FreeDirections free = free_directions(assembly, static_cast<std::size_t>(found - assembly.names.begin()));
+  const FreeDirections free =
+      free_directions(assembly, static_cast<std::size_t>(found - assembly.names.begin()), a.session.monitor);
   json rays = json::array();
   for (const Integer3& ray : free.rays) {
     rays.push_back({ray[0].get_str(), ray[1].get_str(), ray[2].get_str()});
@@ -197,18 +199,14 @@ json assembly_json(const Disassembly& answer, const Assembly& assembly) {
 }
 
 int run_assembly(const Arguments& a) {
-  const Stopwatch watch;
+  const TimeLimit limit(a.time, a.session.monitor);
   const Assembly assembly = read_assembly(a.assembly, a.session.mesh);
   a.session.note_all(assembly.messages);
   if (!a.free_directions.empty()) return tell_free_directions(a, assembly);
-  DisassemblyOptions options;
-  options.progress = [&](std::size_t steps) { a.session.show_phase("taking apart", steps, assembly.parts.size() - 1); };
-  options.digits = a.path.digits;
-  if (a.time_given) options.stop = [&] { return watch.seconds() >= a.seconds; };
-  const Disassembly answer = take_apart(assembly, options);
+  const Disassembly answer = take_apart(assembly, a.path.digits, limit.monitor());
   a.session.hide_phase();
   std::string text = report_text(
-      run_report("assembly", assembly_json(answer, assembly), {{"op", watch.seconds(), {}}}, assembly.messages));
+      run_report("assembly", assembly_json(answer, assembly), {{"op", limit.passed(), {}}}, assembly.messages));
   write_outputs(
       a, assembly.name, [&text](const std::string&) { return std::optional(text); },
       [&] { return layers_of(answer, assembly); });

@@ -16,23 +16,16 @@
 namespace nef::planner {
 namespace {
 
-Verdict verdict_on(const Scene& scene, const BuildOptions& build) {
-  if (build.stop && build.stop()) return Verdict::kUndecided;
-  Polyhedron positions;
-  try {
-    positions = free_positions(scene, build);
-  } catch (const Interrupted&) {
-    return Verdict::kUndecided;
-  }
-  const FreeSpace free(std::move(positions));
+Verdict verdict_on(const Scene& scene, const Monitor& monitor) {
+  const FreeSpace free(free_positions(scene, monitor));
   const CellId start = free.locate(ExactPoint(*scene.start));
   const CellId goal = free.locate(ExactPoint(*scene.goal));
   if (!free.is_free(start) || !free.is_free(goal)) return Verdict::kNone;
   return free.component(start) == free.component(goal) ? Verdict::kPath : Verdict::kNone;
 }
 
-Verdict turning_verdict_on(const Scene& scene, const TurningLimits& limits) {
-  switch (find_turning_path(scene, question_of(scene), limits).status) {
+Verdict turning_verdict_on(const Scene& scene, const TurningLimits& limits, const Monitor& monitor) {
+  switch (find_turning_path(scene, question_of(scene), limits, monitor).status) {
     case TurningAnswer::Status::kPath:
       return Verdict::kPath;
     case TurningAnswer::Status::kUndecided:
@@ -51,16 +44,18 @@ nlohmann::json make_widest(const Arguments& a, Scene& scene) {
   const Growth growth = a.widest_box ? Growth::kBox : Growth::kScale;
   const Polyhedron robot = scene.robot;
   Rational smallest = growth == Growth::kBox ? 0 : 1;
-  BuildOptions build;
-  build.monitor = a.session.monitor;
   TurningLimits limits;
   limits.max_cells = a.max_cells;
-  const Stopwatch watch;
-  if (a.time_given) build.stop = limits.stop = [&] { return watch.seconds() >= a.seconds; };
+  const TimeLimit limit(a.time, a.session.monitor);
   const Widest widest = find_widest(smallest, precision, growth == Growth::kScale, [&](const Rational& size) {
     smallest = std::min(smallest, size);
-    scene.robot = grown(robot, growth, size);
-    return scene.rotation ? turning_verdict_on(scene, limits) : verdict_on(scene, build);
+    if (a.time && limit.passed() >= *a.time) return Verdict::kUndecided;
+    try {
+      scene.robot = grown(robot, growth, size, limit.monitor());
+      return scene.rotation ? turning_verdict_on(scene, limits, limit.monitor()) : verdict_on(scene, limit.monitor());
+    } catch (const Interrupted&) {
+      return Verdict::kUndecided;
+    }
   });
   scene.robot = grown(robot, growth, widest.low.value_or(smallest));
   nlohmann::json result{{"growth", growth == Growth::kBox ? "box" : "scale"},

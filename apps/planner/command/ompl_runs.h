@@ -12,9 +12,12 @@
 
 namespace nef::planner {
 
+/// The time of each run, unless --time gives another one.
+inline constexpr double kOmplSeconds = 10;
+
 struct OmplRequest {
   std::string planner;
-  double seconds = 10;
+  double seconds = kOmplSeconds;
   unsigned runs = 1;
   std::optional<unsigned> digits = std::nullopt;  ///< round way-points to so many decimals where the motions stay free
 };

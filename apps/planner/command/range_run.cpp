@@ -11,7 +11,7 @@
 #include "apps/program/run_report.h"
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
-#include "nef/base/timing/stopwatch.h"
+#include "nef/base/timing/time_limit.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/number_text.h"
 
@@ -113,22 +113,20 @@ json range_json(const RangeOfMotion& range, const Mechanism& m) {
 }
 
 int run_range(const Arguments& a) {
-  const Stopwatch watch;
+  const TimeLimit limit(a.time, a.session.monitor);
   const Mechanism mechanism = read_mechanism(a.range, a.session.mesh);
   a.session.note_all(mechanism.messages);
-  const double setup_s = watch.seconds();
-  const StopQuestion question(a.time_given ? std::function<bool()>([&] { return watch.seconds() >= a.seconds; })
-                                           : nullptr);
+  const double setup_s = limit.passed();
   RangeOfMotion range;
   try {
-    range = range_of_motion(mechanism, question.monitor());
+    range = range_of_motion(mechanism, limit.monitor());
   } catch (const Interrupted&) {
     range.parts.assign(1, {RangeStatus::kUndecided, {mechanism.low, {}}, {mechanism.high, {}}});
   }
   json found = range_json(range, mechanism);
   found["mechanism"] = mechanism.name;
   std::string text = report_text(
-      run_report("range", found, {{"setup", setup_s, {}}, {"op", watch.seconds() - setup_s, {}}}, mechanism.messages));
+      run_report("range", found, {{"setup", setup_s, {}}, {"op", limit.passed() - setup_s, {}}}, mechanism.messages));
   for (const std::string& file : a.outputs) write_file(file, text);
   print_result(
       a, [&] { return text; }, [&] { print(range, mechanism); });

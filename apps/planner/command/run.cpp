@@ -30,7 +30,7 @@
 #include "apps/program/run_program.h"
 #include "nef/base/error.h"
 #include "nef/base/monitor.h"
-#include "nef/base/timing/stopwatch.h"
+#include "nef/base/timing/time_limit.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/number_text.h"
 
@@ -183,7 +183,7 @@ int answer_queries(const Arguments& a, const Problem& problem, const Monitor& mo
 }
 
 int run_stock_planner(const Arguments& a, const Problem& problem) {
-  const OmplOutcome outcome = run_ompl(problem, {a.ompl, a.seconds, a.runs, a.path.digits});
+  const OmplOutcome outcome = run_ompl(problem, {a.ompl, a.time.value_or(kOmplSeconds), a.runs, a.path.digits});
   write_answer(a, outcome.answer, problem);
   if (!a.session.quiet && !a.session.json) std::cout << outcome.summary << '\n';
   if (a.session.json || outcome.answer.path) print(a, outcome.answer, problem);
@@ -235,12 +235,12 @@ std::optional<int> answer_invalid_end(const Arguments& a, const Scene& scene, co
 }
 
 // Looks for a path without cells and tight passages; nothing if there is none like that.
-std::optional<int> answer_from_a_part(const Arguments& a, const Scene& scene, const BuildOptions& build,
-                                      const nlohmann::json& widest) {
+std::optional<int> answer_from_a_part(const Arguments& a, const Scene& scene, const nlohmann::json& widest,
+                                      const Monitor& monitor) {
   if (!asks_for_a_path_only(a)) return std::nullopt;
   PathOptions options = a.path;
   options.roomy = a.prefer == "roomy";
-  const std::optional<PartialAnswer> found = partial_answer(scene, options, build);
+  const std::optional<PartialAnswer> found = partial_answer(scene, options, monitor);
   if (!found) return std::nullopt;
   a.session.hide_phase();
   Scene told = scene;
@@ -252,30 +252,28 @@ std::optional<int> answer_from_a_part(const Arguments& a, const Scene& scene, co
   return exit_code(found->answer.status);
 }
 
-int answer_about_translations(const Arguments& a, const Scene& scene, const BuildOptions& build,
-                              const nlohmann::json& widest) {
-  if (const std::optional<int> code = answer_invalid_end(a, scene, widest, build.monitor)) return *code;
-  if (const std::optional<int> code = answer_from_a_part(a, scene, build, widest)) return *code;
-  const Problem problem(scene, build);
+int answer_about_translations(const Arguments& a, const Scene& scene, const nlohmann::json& widest,
+                              const Monitor& monitor) {
+  if (const std::optional<int> code = answer_invalid_end(a, scene, widest, monitor)) return *code;
+  if (const std::optional<int> code = answer_from_a_part(a, scene, widest, monitor)) return *code;
+  const Problem problem(scene, monitor);
   a.session.hide_phase();
-  if (!a.queries.empty()) return answer_queries(a, problem, build.monitor);
+  if (!a.queries.empty()) return answer_queries(a, problem, monitor);
   if (!a.given_path.empty()) return check_given_path(a, problem);
-  if (!a.benchmark.empty()) return run_benchmark(problem, a.planners, a.seconds, a.runs, a.benchmark, a.session.quiet);
+  if (!a.benchmark.empty())
+    return run_benchmark(problem, a.planners, a.time.value_or(kOmplSeconds), a.runs, a.benchmark, a.session.quiet);
   if (!a.ompl.empty()) return run_stock_planner(a, problem);
-  return answer_question(a, problem, widest, build.monitor);
+  return answer_question(a, problem, widest, monitor);
 }
 
 int run(const Arguments& a) {
   check_usage(a);
+  a.session.mesh.monitor = a.session.monitor;
   if (!a.range.empty()) return run_range(a);
   if (!a.assembly.empty()) return run_assembly(a);
-  BuildOptions build;
-  build.progress = [&a](const std::string& phase, std::size_t done, std::size_t total) {
-    a.session.show_phase(phase, done, total);
-  };
   a.session.show_phase("reading " + a.scene);
   Scene scene = scene_of(a);
-  if (!a.keep_clear.empty()) keep_clear(scene, parse_rational(a.keep_clear));
+  if (!a.keep_clear.empty()) keep_clear(scene, parse_rational(a.keep_clear), a.session.monitor);
   a.session.hide_phase();
   a.session.note_all(scene.messages);
   if (const std::optional<int> code = run_check_proof(a, scene)) return *code;
@@ -291,17 +289,14 @@ int run(const Arguments& a) {
   if (!a.check_proof.empty())
     throw InputError("--check-proof " + a.check_proof + ": no .proof file, and the scene has no rotation");
   // An OMPL planner has the time for itself.
-  const bool timed = a.time_given && a.ompl.empty() && a.benchmark.empty();
-  const Stopwatch watch;
-  const StopQuestion question(timed ? std::function<bool()>([&] { return watch.seconds() >= a.seconds; }) : nullptr,
-                              a.session.monitor);
-  build.monitor = question.monitor();
+  const bool timed = a.ompl.empty() && a.benchmark.empty();
+  const TimeLimit limit(timed ? a.time : std::nullopt, a.session.monitor);
   try {
-    return answer_about_translations(a, scene, build, widest);
+    return answer_about_translations(a, scene, widest, limit.monitor());
   } catch (const Interrupted&) {
     Answer answer;
     answer.status = Answer::Status::kUndecided;
-    answer.phases["op"] = watch.seconds();
+    answer.phases["op"] = limit.passed();
     return tell_without_free_space(a, answer, scene, widest);
   }
 }
@@ -312,6 +307,10 @@ int run_command(int argc, char** argv) {
   CLI::App app("Plans the motion of a translating robot exactly: a path, or a proof that there is none.", "planner");
   app.set_version_flag("--version", std::string("planner " NEF_VERSION));
   Session session("planner", std::cout, std::cerr);
+  const ProgressFunction show = [&session](const char* phase, std::size_t done, std::size_t total) {
+    session.show_phase(phase, done, total);
+  };
+  session.monitor = session.monitor.telling(show);
   Arguments arguments(session);
   declare(app, arguments);
   return run_program(

@@ -13,6 +13,7 @@
 #include "apps/program/run_report.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
+#include "nef/base/timing/time_limit.h"
 #include "nef/io/file_bytes.h"
 
 namespace nef::planner {
@@ -51,21 +52,20 @@ int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& wi
     throw InputError("--digits: what OMPL's planners find for a robot that turns is not rounded");
   }
   if (!a.check_proof.empty()) return check_proof(a, scene);
-  const Stopwatch watch;
+  const TimeLimit limit(a.time, a.session.monitor);
   TurningLimits limits;
   limits.max_cells = a.max_cells;
   limits.digits = a.path.digits;
-  if (a.time_given) limits.stop = [&] { return watch.seconds() >= a.seconds; };
   const TurningQuestion question = question_of(scene);
-  const TurningAnswer answer =
-      a.ompl.empty() ? find_turning_path(scene, question, limits) : run_turning_ompl(scene, a.ompl, a.seconds);
+  const TurningAnswer answer = a.ompl.empty() ? find_turning_path(scene, question, limits, limit.monitor())
+                                              : run_turning_ompl(scene, a.ompl, a.time.value_or(kOmplSeconds));
   nlohmann::json report = turning_json(answer, scene, question.axis);
   std::vector<double> times;
   if (!answer.path.empty() && a.limits.speed > 0)
     times = times_of(lengths_of(answer.path, scene.robot, question.axis), a.limits);
   if (!times.empty()) report["times_s"] = times;
   if (!widest.is_null()) report["widest"] = widest;
-  std::string text = report_text(run_report("turning", report, {{"op", watch.seconds(), {}}}, scene.messages));
+  std::string text = report_text(run_report("turning", report, {{"op", limit.passed(), {}}}, scene.messages));
   // The report whatever the answer; other formats hold a path.
   const auto rendered = [&](const std::string& file) -> std::optional<std::string> {
     const std::string extension = lower_extension(file);

@@ -28,16 +28,6 @@ bool all_regular(const Scene& scene, const std::vector<Polyhedron>& obstacles) {
   return true;
 }
 
-minkowski::MinkowskiOptions minkowski_options(const BuildOptions& build, const Monitor& monitor) {
-  minkowski::MinkowskiOptions options;
-  options.progress = [&build](std::size_t done, std::size_t total) {
-    if (build.progress) build.progress("configuration space", done, total);
-    return true;
-  };
-  options.monitor = monitor;
-  return options;
-}
-
 // The scene with some of its obstacles only.
 Scene with_only(const Scene& scene, const std::vector<std::size_t>& kept) {
   Scene result = scene;
@@ -79,15 +69,27 @@ std::vector<std::size_t> obstacles_near(const Scene& scene, std::size_t index) {
   return near;
 }
 
-// Asks nobody but the monitor whether to stop.
-Polyhedron watched_positions(const Scene& scene, const BuildOptions& build, const Monitor& monitor) {
+}  // namespace
+
+minkowski::MinkowskiOptions sum_options(const Monitor& monitor) {
+  minkowski::MinkowskiOptions options;
+  options.progress = [monitor](std::size_t done, std::size_t total) {
+    monitor.tell_progress("configuration space", done, total);
+    return true;
+  };
+  options.monitor = monitor.quiet();
+  return options;
+}
+
+Polyhedron free_positions(const Scene& scene, const Monitor& monitor) {
   require_no_rotation(scene);
+  const minkowski::MinkowskiOptions options = sum_options(monitor);
+  const Monitor& quiet = options.monitor;
   std::vector<Polyhedron> obstacles;
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
-    obstacles.push_back(reachable_part(scene.obstacles[i], scene, monitor,
+    obstacles.push_back(reachable_part(scene.obstacles[i], scene, quiet,
                                        "obstacle " + std::to_string(i) + " (" + scene.obstacle_names[i] + ")"));
   }
-  const minkowski::MinkowskiOptions options = minkowski_options(build, monitor);
   if (scene.contact == ContactRule::kAllow) {
     return minkowski::configuration_space(scene.robot, obstacles, scene.box, options);
   }
@@ -95,64 +97,47 @@ Polyhedron watched_positions(const Scene& scene, const BuildOptions& build, cons
   if (all_regular(scene, obstacles)) {
     // closure(int O + -int R) = O + -R for closures of interiors, so the complement of the closed
     // sum is the interior of the complement of the open one.
-    free = interior(minkowski::configuration_space(scene.robot, obstacles, std::nullopt, options), monitor);
+    free = interior(minkowski::configuration_space(scene.robot, obstacles, std::nullopt, options), quiet);
   } else {
     free = complement(
-        minkowski::minkowski_sum(unite_all(obstacles, monitor), minkowski::negate(scene.robot, monitor), options));
+        minkowski::minkowski_sum(unite_all(obstacles, quiet), minkowski::negate(scene.robot, quiet), options));
   }
-  return scene.box ? intersect(free, make_box((*scene.box)[0], (*scene.box)[1], monitor), monitor) : free;
+  return scene.box ? intersect(free, make_box((*scene.box)[0], (*scene.box)[1], quiet), quiet) : free;
 }
 
-// What only one obstacle forbids: free for those near it, not free for it; others do not matter there.
-Polyhedron forbidden_by_one(const Scene& scene, std::size_t index, const BuildOptions& options,
-                            const Monitor& monitor) {
-  return subtract(watched_positions(with_only(scene, obstacles_near(scene, index)), options, monitor),
-                  watched_positions(with_only(scene, {index}), options, monitor), monitor);
+void apply(const ObstacleChange& change, Scene& scene) {
+  if (!change.index) {
+    scene.obstacles.push_back(*change.obstacle);
+    scene.obstacle_names.emplace_back("obstacle");
+  } else if (change.obstacle) {
+    scene.obstacles[*change.index] = *change.obstacle;
+  } else {
+    scene.obstacles.erase(scene.obstacles.begin() + static_cast<std::ptrdiff_t>(*change.index));
+    scene.obstacle_names.erase(scene.obstacle_names.begin() + static_cast<std::ptrdiff_t>(*change.index));
+  }
 }
-
-Polyhedron free_of_one(const Scene& scene, const Polyhedron& obstacle, const BuildOptions& options,
-                       const Monitor& monitor) {
-  Scene alone = with_only(scene, {});
-  alone.obstacles.push_back(obstacle);
-  alone.obstacle_names.emplace_back("new");
-  return watched_positions(alone, options, monitor);
-}
-
-}  // namespace
 
 bool obstacles_are_independent(const Scene& scene) {
   return scene.contact == ContactRule::kForbid || scene.robot.is_regular();
 }
 
-Polyhedron with_obstacle(const Scene& scene, const Polyhedron& free, const Polyhedron& obstacle,
-                         const BuildOptions& options) {
-  NEF_ASSERT(obstacles_are_independent(scene));
-  const StopQuestion question(options.stop, options.monitor);
-  return intersect(free, free_of_one(scene, obstacle, options, question.monitor()), question.monitor());
-}
-
-Polyhedron without_obstacle(const Scene& scene, const Polyhedron& free, std::size_t index,
-                            const BuildOptions& options) {
-  NEF_ASSERT(obstacles_are_independent(scene));
-  const StopQuestion question(options.stop, options.monitor);
-  return unite(free, forbidden_by_one(scene, index, options, question.monitor()), question.monitor());
-}
-
 // One operation with all of free space: what comes free is apart from it, what no longer is free a part of it.
-Polyhedron with_obstacle_moved(const Scene& scene, const Polyhedron& free, std::size_t index, const Polyhedron& moved,
-                               const BuildOptions& options) {
+Polyhedron free_positions_after(const ObstacleChange& change, const Scene& scene, const Polyhedron& free,
+                                const Monitor& monitor) {
   NEF_ASSERT(obstacles_are_independent(scene));
-  const StopQuestion question(options.stop, options.monitor);
-  const Monitor& monitor = question.monitor();
-  const Polyhedron free_of_moved = free_of_one(scene, moved, options, monitor);
-  const Polyhedron gained = intersect(forbidden_by_one(scene, index, options, monitor), free_of_moved, monitor);
-  const Polyhedron lost = subtract(free, free_of_moved, monitor);
-  return symmetric_difference(free, unite(gained, lost, monitor), monitor);
-}
-
-Polyhedron free_positions(const Scene& scene, const BuildOptions& build) {
-  const StopQuestion question(build.stop, build.monitor);
-  return watched_positions(scene, build, question.monitor());
+  const Monitor quiet = monitor.quiet();
+  Polyhedron gained;  // what only the obstacle before forbids: free for those near it, not free for it
+  if (change.index) {
+    gained = subtract(free_positions(with_only(scene, obstacles_near(scene, *change.index)), monitor),
+                      free_positions(with_only(scene, {*change.index}), monitor), quiet);
+    if (!change.obstacle) return unite(free, gained, quiet);
+  }
+  Scene alone = with_only(scene, {});
+  apply({std::nullopt, change.obstacle}, alone);
+  const Polyhedron free_of_new = free_positions(alone, monitor);
+  if (!change.index) return intersect(free, free_of_new, quiet);
+  const Polyhedron lost = subtract(free, free_of_new, quiet);
+  return symmetric_difference(free, unite(intersect(gained, free_of_new, quiet), lost, quiet), quiet);
 }
 
 }  // namespace nef::planner

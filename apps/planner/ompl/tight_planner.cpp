@@ -86,31 +86,29 @@ void TightPlanner::declare() {
 
 void TightPlanner::setup() {
   ob::Planner::setup();
-  if (!builder_) updateFreeSpace([] { return false; });
+  if (!builder_) updateFreeSpace({});
 }
 
-bool TightPlanner::updateFreeSpace(const std::function<bool()>& stop) {
+void TightPlanner::updateFreeSpace(const Monitor& monitor) {
   const auto* space = dynamic_cast<const ExactTranslationSpace*>(si_->getStateSpace().get());
   if (space == nullptr) throw ompl::Exception(name_, "the state space must be an ExactTranslationSpace");
-  if (builder_ && freeSpace_) return true;
+  if (builder_ && freeSpace_) return;
   const Stopwatch watch;
   std::shared_ptr<const FreeSpace> present;
   if (builder_) {
-    present = builder_(stop);
-    if (!present && stop()) return false;
+    present = builder_(monitor);
   } else if (const auto* checker = dynamic_cast<const NefStateValidityChecker*>(si_->getStateValidityChecker().get())) {
     present = checker->getFreeSpace();
   } else {
     present = space->getFreeSpace();
   }
   if (!present) throw ompl::Exception(name_, "there is no free space: use a NefStateValidityChecker");
-  if (present == freeSpace_) return true;
+  if (present == freeSpace_) return;
   clearQuery();  // its ends are those of another free space
   knownWay_ = std::exchange(lastWay_, {});
   if (!std::exchange(keepWay_, false)) knownWay_.clear();
   freeSpace_ = std::move(present);
   preprocessing_ = watch.seconds();
-  return true;
 }
 
 void TightPlanner::clear() {
@@ -167,27 +165,19 @@ std::optional<ExactPath> TightPlanner::bestPath(std::size_t firstGoal, const ob:
   std::optional<ExactPath> best;
   PathOptions options = options_;
   options.known = knownWay_;
-  interrupted = false;
-  for (const EndPoint& start : starts_) {
-    for (std::size_t i = firstGoal; i < goals_.size(); ++i) {
-      // The first pair is always answered: it takes no longer than noticing the time.
-      interrupted = ptc && (i > firstGoal || &start != &starts_.front());
-      if (interrupted) return best;
-      std::optional<ExactPath> path;
-      try {
-        path = find_path(*freeSpace_, start.position, goals_[i].position, options, question.monitor());
-      } catch (const Interrupted&) {
-        interrupted = true;
-        return best;
+  try {
+    for (const EndPoint& start : starts_) {
+      for (std::size_t i = firstGoal; i < goals_.size(); ++i) {
+        // The first pair is always answered: it takes no longer than noticing the time.
+        if ((i > firstGoal || &start != &starts_.front()) && ptc) throw Interrupted();
+        auto path = find_path(*freeSpace_, start.position, goals_[i].position, options, question.monitor());
+        if (path && (!best || path->length < best->length)) best = std::move(path);
       }
-      if (path && (!best || path->length < best->length)) best = std::move(path);
     }
+  } catch (const Interrupted&) {
+    interrupted = true;
   }
   return best;
-}
-
-void TightPlanner::addSolution(const ExactPath& path) {
-  pdef_->addSolutionPath(toPathGeometric(si_, path), false, 0.0, name_);
 }
 
 bool TightPlanner::isAccepted(const ExactPath& path) const {
@@ -217,7 +207,12 @@ void TightPlanner::proveInfeasible() {
 }
 
 ob::PlannerStatus TightPlanner::solve(const ob::PlannerTerminationCondition& ptc) {
-  if (ptc || !updateFreeSpace([&ptc] { return ptc.eval(); })) return ob::PlannerStatus::TIMEOUT;
+  if (ptc) return ob::PlannerStatus::TIMEOUT;
+  try {
+    updateFreeSpace(StopQuestion([&ptc] { return ptc.eval(); }).monitor());
+  } catch (const Interrupted&) {
+    return ob::PlannerStatus::TIMEOUT;
+  }
   checkValidity();
   warn_of_ignored_objective(*pdef_, name_);
   const auto* region = dynamic_cast<const ob::GoalSampleableRegion*>(pdef_->getGoal().get());
@@ -235,7 +230,7 @@ ob::PlannerStatus TightPlanner::solve(const ob::PlannerTerminationCondition& ptc
     if (exactPath_) {
       lastWay_ = exactPath_->points;
       knownWay_.clear();
-      addSolution(*exactPath_);
+      pdef_->addSolutionPath(toPathGeometric(si_, *exactPath_), false, 0.0, name_);
       return ob::PlannerStatus::EXACT_SOLUTION;
     }
     if (all && !interrupted) break;
@@ -287,15 +282,7 @@ void TightPlanner::getPlannerData(ob::PlannerData& data) const {
 
 TightPlanner::FreeSpaceBuilder free_space_builder(const Scene& scene) {
   require_no_rotation(scene);
-  return [&scene](const std::function<bool()>& stop) -> std::shared_ptr<const FreeSpace> {
-    BuildOptions options;
-    options.stop = stop;
-    try {
-      return std::make_shared<const FreeSpace>(free_positions(scene, options));
-    } catch (const Interrupted&) {
-      return nullptr;
-    }
-  };
+  return [&scene](const Monitor& monitor) { return std::make_shared<const FreeSpace>(free_positions(scene, monitor)); };
 }
 
 std::shared_ptr<ompl::geometric::PathGeometric> toPathGeometric(const ob::SpaceInformationPtr& si,

@@ -39,8 +39,8 @@ namespace nef::planner {
     D. Halperin, Robust geometric computing in motion, IJRR 2002. */
 class TightPlanner : public ompl::base::Planner {
  public:
-  /** \brief Computes a free space, at most once per setup. It may ask whether to stop, and then return null. */
-  using FreeSpaceBuilder = std::function<std::shared_ptr<const FreeSpace>(const std::function<bool()>& stop)>;
+  /** \brief Computes a free space, at most once per setup. It may throw Interrupted if the monitor stops it. */
+  using FreeSpaceBuilder = std::function<std::shared_ptr<const FreeSpace>(const Monitor& monitor)>;
 
   /** \brief The free space is that of the space information's NefStateValidityChecker, or of its
       ExactTranslationSpace. */
@@ -106,15 +106,14 @@ class TightPlanner : public ompl::base::Planner {
     knownWay_.clear();
   }
   void declare();
-  // Builds the free space, or takes that of the space information, which may have been replaced. False if stopped.
-  bool updateFreeSpace(const std::function<bool()>& stop);
+  // Builds the free space, or takes that of the space information, which may have been replaced.
+  void updateFreeSpace(const Monitor& monitor);
   void takeStarts();
   // Takes some goals that are not there yet. True if there are no more, and will be none.
   bool takeGoals(const ompl::base::GoalSampleableRegion& region, const ompl::base::PlannerTerminationCondition& ptc);
-  // The shortest path from a start to one of the goals from an index on.
+  // The shortest path from a start to one of the goals from an index on, or of those that could be tried in time.
   std::optional<ExactPath> bestPath(std::size_t firstGoal, const ompl::base::PlannerTerminationCondition& ptc,
                                     bool& interrupted);
-  void addSolution(const ExactPath& path);
   // True if the checks beyond the free space have nothing against the path.
   bool isAccepted(const ExactPath& path) const;
   ompl::base::PlannerStatus searchAnotherWay(const ompl::base::PlannerTerminationCondition& ptc);

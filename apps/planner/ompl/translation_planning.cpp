@@ -24,6 +24,7 @@
 #include "nef/base/interruption.h"
 #include "nef/base/monitor.h"
 #include "nef/base/timing/stopwatch.h"
+#include "nef/base/timing/time_limit.h"
 
 namespace nef::planner {
 
@@ -126,47 +127,30 @@ void TranslationPlanning::moveObstacle(std::size_t index, const AffineMap& map) 
   obstacleChanged({index, transform(scene_.obstacles[index], map)});
 }
 
-void TranslationPlanning::apply(const Change& change, Scene& scene) {
-  if (!change.index) {
-    scene.obstacles.push_back(*change.obstacle);
-    scene.obstacle_names.emplace_back("obstacle");
-  } else if (change.obstacle) {
-    scene.obstacles[*change.index] = *change.obstacle;
-  } else {
-    scene.obstacles.erase(scene.obstacles.begin() + static_cast<std::ptrdiff_t>(*change.index));
-    scene.obstacle_names.erase(scene.obstacle_names.begin() + static_cast<std::ptrdiff_t>(*change.index));
-  }
-}
-
-void TranslationPlanning::obstacleChanged(Change change) {
+void TranslationPlanning::obstacleChanged(ObstacleChange change) {
   apply(change, scene_);
   std::optional<Before> before = std::move(before_);
-  std::vector<Change> changes = std::move(changes_);
+  std::vector<ObstacleChange> changes = std::move(changes_);
   changed();
   if (!before) return;
   changes.push_back(std::move(change));
   before_ = std::move(before);
   changes_ = std::move(changes);
-  const bool only_came = std::none_of(changes_.begin(), changes_.end(), [](const Change& c) { return c.index; });
+  const bool only_came =
+      std::none_of(changes_.begin(), changes_.end(), [](const ObstacleChange& c) { return c.index; });
   if (TightPlanner* planner = getTightPlanner(); planner != nullptr) planner->keepWay(only_came);
 }
 
-Polyhedron TranslationPlanning::presentFreePositions(const BuildOptions& options) const {
+Polyhedron TranslationPlanning::presentFreePositions(const Monitor& monitor) const {
   // From here on, uniting all sums at once is faster than one operation with all of free space for each.
   constexpr std::size_t kFewChanges = 8;
   if (!before_ || changes_.size() > kFewChanges || !obstacles_are_independent(scene_)) {
-    return free_positions(scene_, options);
+    return free_positions(scene_, monitor);
   }
   Scene scene = before_->scene;
   Polyhedron free = before_->free;
-  for (const Change& change : changes_) {
-    if (!change.index) {
-      free = with_obstacle(scene, free, *change.obstacle, options);
-    } else if (change.obstacle) {
-      free = with_obstacle_moved(scene, free, *change.index, *change.obstacle, options);
-    } else {
-      free = without_obstacle(scene, free, *change.index, options);
-    }
+  for (const ObstacleChange& change : changes_) {
+    free = free_positions_after(change, scene, free, monitor);
     apply(change, scene);
   }
   return free;
@@ -313,20 +297,11 @@ void TranslationPlanning::useFreeSpace(std::shared_ptr<const FreeSpace> freeSpac
   });
 }
 
-bool TranslationPlanning::prepare(const std::function<bool()>& stop) {
+void TranslationPlanning::prepare(const Monitor& monitor) {
   adoptBounds();
   if (!freeSpace_) {
     if (scene_.robot.is_empty()) throw ompl::Exception("TranslationPlanning", "no robot is set");
-    const StopQuestion question(stop);
-    BuildOptions options;
-    options.monitor = question.monitor();
-    std::shared_ptr<const FreeSpace> freeSpace;
-    try {
-      freeSpace = std::make_shared<const FreeSpace>(presentFreePositions(options));
-    } catch (const Interrupted&) {
-      return false;
-    }
-    useFreeSpace(std::move(freeSpace));
+    useFreeSpace(std::make_shared<const FreeSpace>(presentFreePositions(monitor)));
     if (!boundsOfUser_) inferEnvironmentBounds();
   }
   if (noteCheckers()) installCheckers();
@@ -334,42 +309,37 @@ bool TranslationPlanning::prepare(const std::function<bool()>& stop) {
   const std::vector<const ob::State*> ends = endStates();
   const auto inside = [this](const ob::State* state) { return space().satisfiesBounds(state); };
   if (!boundsOfUser_ && !std::all_of(ends.begin(), ends.end(), inside)) inferEnvironmentBounds();
-  return buildRoadmap(stop);
+  // TightPlanner makes the roadmap when it needs it; other planners ask for thousands of states.
+  if (planner_ && getTightPlanner() == nullptr) freeSpace_->build_roadmap(monitor);
 }
 
-bool TranslationPlanning::buildRoadmap(const std::function<bool()>& stop) const {
-  // TightPlanner makes it when it needs it; other planners ask for thousands of states.
-  if (!planner_ || getTightPlanner() != nullptr) return true;
-  const StopQuestion question(stop);
+template <typename Solve>
+ob::PlannerStatus TranslationPlanning::prepareAndSolve(const Monitor& monitor, const Solve& solve) {
+  const Stopwatch watch;
   try {
-    freeSpace_->build_roadmap(question.monitor());
+    prepare(monitor);
   } catch (const Interrupted&) {
-    return false;
+    planTime_ = watch.seconds();
+    OMPL_INFORM("No free space after %f seconds", planTime_);
+    return lastStatus_ = ob::PlannerStatus::TIMEOUT;
   }
-  return true;
+  return solve();
 }
 
 void TranslationPlanning::setup() {
-  prepare([] { return false; });
+  prepare({});
   ompl::geometric::SimpleSetup::setup();
 }
 
 ob::PlannerStatus TranslationPlanning::solve(double time) {
-  const Stopwatch watch;
-  if (prepare([&] { return watch.seconds() >= time; })) {
-    return ompl::geometric::SimpleSetup::solve(std::max(0.0, time - watch.seconds()));
-  }
-  planTime_ = watch.seconds();
-  OMPL_INFORM("No free space after %f seconds", planTime_);
-  return lastStatus_ = ob::PlannerStatus::TIMEOUT;
+  const TimeLimit limit(time);
+  return prepareAndSolve(limit.monitor(),
+                         [&] { return ompl::geometric::SimpleSetup::solve(std::max(0.0, time - limit.passed())); });
 }
 
 ob::PlannerStatus TranslationPlanning::solve(const ob::PlannerTerminationCondition& ptc) {
-  const Stopwatch watch;
-  if (prepare([&ptc] { return ptc.eval(); })) return ompl::geometric::SimpleSetup::solve(ptc);
-  planTime_ = watch.seconds();
-  OMPL_INFORM("No free space after %f seconds", planTime_);
-  return lastStatus_ = ob::PlannerStatus::TIMEOUT;
+  const StopQuestion question([&ptc] { return ptc.eval(); });
+  return prepareAndSolve(question.monitor(), [&] { return ompl::geometric::SimpleSetup::solve(ptc); });
 }
 
 }  // namespace nef::planner

@@ -94,29 +94,24 @@ class TranslationPlanning : public ompl::geometric::SimpleSetup {
   bool noteCheckers();
   // Ours, which ask the user's as well.
   void installCheckers();
-  // Builds the free space if there is none. False if stopped.
-  bool prepare(const std::function<bool()>& stop);
-  bool buildRoadmap(const std::function<bool()>& stop) const;
+  // Builds the free space if there is none, and its roadmap if the planner is to find it there.
+  void prepare(const Monitor& monitor);
+  // Prepares and then solves; TIMEOUT if the monitor stops the former.
+  template <typename Solve>
+  ompl::base::PlannerStatus prepareAndSolve(const Monitor& monitor, const Solve& solve);
   void changed();
   // Throws std::out_of_range.
   void requireObstacle(std::size_t index) const;
   // The free positions of the present scene, from those before the changes if these are few.
-  Polyhedron presentFreePositions(const BuildOptions& options) const;
-
-  // An obstacle came (at the end), went, or has become another set.
-  struct Change {
-    std::optional<std::size_t> index;    ///< of the one that went or has changed
-    std::optional<Polyhedron> obstacle;  ///< what came, or what it has become
-  };
-  static void apply(const Change& change, Scene& scene);
-  void obstacleChanged(Change change);
+  Polyhedron presentFreePositions(const Monitor& monitor) const;
+  void obstacleChanged(ObstacleChange change);
   struct Before {
     Scene scene;
     Polyhedron free;
   };
   Scene scene_;
-  std::optional<Before> before_;  ///< what the free space was built for last
-  std::vector<Change> changes_;   ///< of obstacles since then
+  std::optional<Before> before_;         ///< what the free space was built for last
+  std::vector<ObstacleChange> changes_;  ///< since then
   std::vector<std::string> folders_;
   std::shared_ptr<const FreeSpace> freeSpace_;
   std::optional<ompl::base::RealVectorBounds> bounds_;  ///< of the state space, when last looked at

@@ -124,10 +124,9 @@ std::vector<Piece> pieces_of(const std::vector<Polyhedron>& obstacles, const std
 
 class NearSearch {
  public:
-  NearSearch(const Scene& scene, const PathOptions& options, const BuildOptions& build, const Monitor& monitor)
+  NearSearch(const Scene& scene, const PathOptions& options, const Monitor& monitor)
       : scene_(scene),
         options_(options),
-        build_(build),
         monitor_(monitor),
         directions_(fixed_directions()),
         robot_(swept_robot(scene.robot, directions_, monitor)),
@@ -244,7 +243,6 @@ class NearSearch {
 
   const Scene& scene_;
   const PathOptions& options_;
-  const BuildOptions& build_;
   Monitor monitor_;
   std::vector<Vector3d> directions_;
   SweptRobot robot_;
@@ -268,10 +266,9 @@ bool may_have_nearby_answer(const Scene& scene) {
   return any;
 }
 
-std::optional<PartialAnswer> nearby_answer(const Scene& scene, const PathOptions& options, const BuildOptions& build) {
+std::optional<PartialAnswer> nearby_answer(const Scene& scene, const PathOptions& options, const Monitor& monitor) {
   NEF_ASSERT(may_have_nearby_answer(scene));
-  const StopQuestion question(build.stop, build.monitor);
-  return NearSearch(scene, options, build, question.monitor()).run();
+  return NearSearch(scene, options, monitor.quiet()).run();
 }
 
 }  // namespace nef::planner

@@ -18,7 +18,6 @@ bool may_have_nearby_answer(const Scene& scene);
 /// free space that is returned is that of these pieces: around the path, and around another one that shows T and J, it
 /// is the same as that of the scene. Nothing if there is no such path, or if it takes too many steps, which proves
 /// nothing. The scene must be one that may have such an answer. Throws Interrupted as free_positions does.
-std::optional<PartialAnswer> nearby_answer(const Scene& scene, const PathOptions& options,
-                                           const BuildOptions& build = {});
+std::optional<PartialAnswer> nearby_answer(const Scene& scene, const PathOptions& options, const Monitor& monitor = {});
 
 }  // namespace nef::planner

@@ -22,13 +22,9 @@ constexpr std::size_t kMeshFacets = 200;
 bool is_bounded_solid(const Polyhedron& set) { return set.is_bounded() && set.is_regular(); }
 
 // The closure of the positions at which the robot is away from all obstacles.
-Polyhedron interior_positions(const Scene& scene, const BuildOptions& build, const Monitor& monitor) {
-  minkowski::MinkowskiOptions options;
-  options.progress = [&build](std::size_t done, std::size_t total) {
-    if (build.progress) build.progress("configuration space", done, total);
-    return true;
-  };
-  options.monitor = monitor;
+Polyhedron interior_positions(const Scene& scene, const Monitor& watching) {
+  const minkowski::MinkowskiOptions options = sum_options(watching);
+  const Monitor& monitor = options.monitor;
   const Polyhedron reflected = minkowski::negate(scene.robot, monitor);
   std::vector<Polyhedron> sums;
   for (const Polyhedron& obstacle : scene.obstacles) {
@@ -45,22 +41,19 @@ bool can_have_interior_answer(const Scene& scene) {
          is_bounded_solid(scene.robot) && std::all_of(scene.obstacles.begin(), scene.obstacles.end(), is_bounded_solid);
 }
 
-std::optional<PartialAnswer> partial_answer(const Scene& scene, const PathOptions& options, const BuildOptions& build) {
+std::optional<PartialAnswer> partial_answer(const Scene& scene, const PathOptions& options, const Monitor& monitor) {
   const auto is_mesh = [](const Polyhedron& set) { return set.complex().facets.size() >= kMeshFacets; };
   const bool any = is_mesh(scene.robot) || std::any_of(scene.obstacles.begin(), scene.obstacles.end(), is_mesh);
-  if (any && can_have_interior_answer(scene)) return interior_answer(scene, options, build);
-  return may_have_nearby_answer(scene) ? nearby_answer(scene, options, build) : std::nullopt;
+  if (any && can_have_interior_answer(scene)) return interior_answer(scene, options, monitor);
+  return may_have_nearby_answer(scene) ? nearby_answer(scene, options, monitor) : std::nullopt;
 }
 
-std::optional<PartialAnswer> interior_answer(const Scene& scene, const PathOptions& options,
-                                             const BuildOptions& build) {
+std::optional<PartialAnswer> interior_answer(const Scene& scene, const PathOptions& options, const Monitor& monitor) {
   NEF_ASSERT(can_have_interior_answer(scene));
-  const StopQuestion question(build.stop, build.monitor);
-  const Monitor& monitor = question.monitor();
   Stopwatch watch;
   PartialAnswer result;
   Answer& answer = result.answer;
-  Polyhedron positions = interior_positions(scene, build, monitor);
+  Polyhedron positions = interior_positions(scene, monitor);
   answer.phases["configuration_space"] = watch.lap();
   result.free = std::make_shared<const FreeSpace>(std::move(positions));
   answer.phases["cells"] = watch.lap();

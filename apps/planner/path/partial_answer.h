@@ -21,7 +21,7 @@ struct PartialAnswer {
 /// obstacles are large solid meshes, by nearby_answer (nearby_answer.h) if obstacles are large surfaces. Nothing for
 /// other scenes, and where these find none, which proves nothing. Throws Interrupted as free_positions does.
 std::optional<PartialAnswer> partial_answer(const Scene& scene, const PathOptions& options,
-                                            const BuildOptions& build = {});
+                                            const Monitor& monitor = {});
 
 /// True if the scene has start and goal, and robot and obstacles are bounded solids that may touch.
 bool can_have_interior_answer(const Scene& scene);
@@ -31,6 +31,6 @@ bool can_have_interior_answer(const Scene& scene);
 /// closed sums suffice, which the reduced convolution gives without convex cells; that is what it is for. The scene
 /// must be one that can have such an answer. Throws Interrupted as free_positions does.
 std::optional<PartialAnswer> interior_answer(const Scene& scene, const PathOptions& options,
-                                             const BuildOptions& build = {});
+                                             const Monitor& monitor = {});
 
 }  // namespace nef::planner

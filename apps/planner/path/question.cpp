@@ -6,11 +6,11 @@
 
 namespace nef::planner {
 
-Problem::Problem(Scene scene, const BuildOptions& options) : scene_(std::move(scene)) {
+Problem::Problem(Scene scene, const Monitor& monitor) : scene_(std::move(scene)) {
   Stopwatch watch;
-  Polyhedron free = free_positions(scene_, options);
+  Polyhedron free = free_positions(scene_, monitor);
   phases_["configuration_space"] = watch.lap();
-  if (options.progress) options.progress("roadmap", 0, 0);
+  monitor.tell_progress("roadmap", 0, 0);
   free_ = std::make_shared<const FreeSpace>(std::move(free));
   phases_["cells"] = watch.lap();
 }

@@ -15,7 +15,7 @@ namespace nef::planner {
 class Problem {
  public:
   /// Computes the free positions and the roadmap. Throws InputError.
-  explicit Problem(Scene scene, const BuildOptions& options = {});
+  explicit Problem(Scene scene, const Monitor& monitor = {});
 
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const FreeSpace& free_space() const { return *free_; }

@@ -38,30 +38,29 @@ struct Step {
 
 class TurningSearch {
  public:
-  TurningSearch(const Scene& scene, const TurningQuestion& question, const TurningLimits& limits)
+  TurningSearch(const Scene& scene, const TurningQuestion& question, const TurningLimits& limits,
+                const Monitor& monitor)
       : q_(question),
         limits_(limits),
-        stop_(limits.stop, limits.monitor),
-        cells_(scene, question, limits.monitor),
+        monitor_(monitor),
+        cells_(scene, question, monitor),
         parallel_(turns_of_parallel_faces(scene, cells_.robot(), question)) {}
 
   TurningAnswer run() {
     try {
       return answer();
     } catch (const Interrupted&) {
-      // What was in question when the last cells were begun; at first, everything.
+      // What was in question when the last cells were begun.
       if (answer_.open_ranges.empty()) answer_.open_ranges.push_back({q_.low, q_.high});
       return finished(TurningAnswer::Status::kUndecided);
     }
   }
 
  private:
-  [[nodiscard]] const Monitor& monitor() const { return stop_.monitor(); }
-
   TurningAnswer answer() {
-    const Node start = cells_.node_of(q_.start, monitor());
+    const Node start = cells_.node_of(q_.start, monitor_);
     if (start == kNoNode) return finished(TurningAnswer::Status::kInvalidStart);
-    const Node goal = cells_.node_of(q_.goal, monitor());
+    const Node goal = cells_.node_of(q_.goal, monitor_);
     if (goal == kNoNode) return finished(TurningAnswer::Status::kInvalidGoal);
     make_first_cells();
     while (true) {
@@ -87,18 +86,18 @@ class TurningSearch {
     for (const Step& step : steps) {
       const AngleCell& cell = cells_.cells().at(step.cell);
       if (cell.has_own_inner || cells_.surely_meet(step.from, step.to)) continue;
-      cells_.find_inner(step.cell, monitor());
+      cells_.find_inner(step.cell, monitor_);
       return true;
     }
     bool any = false;
     for (const Step& step : steps) {
       if (cells_.cells().at(step.cell).has_bridges) continue;
-      cells_.find_bridges(step.cell, monitor());
+      cells_.find_bridges(step.cell, monitor_);
       any = true;
     }
     if (any) return true;
     if (cells_.cells().size() >= limits_.max_cells) return false;
-    for (const TurnRange& range : answer_.open_ranges) cells_.split(range.low, split_point(range), monitor());
+    for (const TurnRange& range : answer_.open_ranges) cells_.split(range.low, split_point(range), monitor_);
     return true;
   }
 
@@ -115,7 +114,7 @@ class TurningSearch {
     std::set<Turn> points{q_.low, q_.high, q_.start.turn, q_.goal.turn};
     for (Integer quarter = ceiling_of(q_.low); Turn(quarter) < q_.high; ++quarter) points.insert(Turn(quarter));
     for (auto next = std::next(points.begin()); next != points.end(); ++next) {
-      cells_.add(*std::prev(next), *next, monitor());
+      cells_.add(*std::prev(next), *next, monitor_);
     }
   }
 
@@ -141,7 +140,7 @@ class TurningSearch {
     std::vector<std::vector<InnerComponent>> inner(cells_.node_count());
     for (const auto& [low, cell] : cells_.cells()) {
       for (const auto& [turn, holds] : {std::pair(&cell.low, &cell.below), std::pair(&cell.high, &cell.above)}) {
-        const Node first = cells_.first_node(*turn, monitor());
+        const Node first = cells_.first_node(*turn, monitor_);
         for (std::uint32_t i = 0; i < holds->size(); ++i) {
           members[{low, (*holds)[i]}].push_back(first + i);
           inner[first + i].emplace_back(low, (*holds)[i]);
@@ -233,7 +232,7 @@ class TurningSearch {
           entry.inner.push_back(std::move(piece.vertices));
         }
       }
-      const std::vector<Rational3> points = points_of_components(*cell.inner, monitor());
+      const std::vector<Rational3> points = points_of_components(*cell.inner, monitor_);
       for (; component != start_side.end() && component->first == low; ++component)
         entry.start_side.push_back(points[component->second]);
     }
@@ -280,8 +279,8 @@ class TurningSearch {
     PathOptions options;
     options.digits = limits_.digits;
     const auto walk_to = [&](const Rational3& position) {
-      const FreeSpace& free = cells_.slice(here.turn - full_turns, monitor());
-      const std::optional<ExactPath> part = find_path(free, here.position, position, options, monitor());
+      const FreeSpace& free = cells_.slice(here.turn - full_turns, monitor_);
+      const std::optional<ExactPath> part = find_path(free, here.position, position, options, monitor_);
       NEF_ASSERT(part && describe_path(free, part->points));
       for (std::size_t i = 1; i < part->points.size(); ++i) path.push_back({part->points[i], here.turn});
       here.position = position;
@@ -303,7 +302,7 @@ class TurningSearch {
 
   const TurningQuestion& q_;
   const TurningLimits& limits_;
-  StopQuestion stop_;
+  Monitor monitor_;
   TurningCells cells_;
   std::set<Turn> parallel_;
   TurningAnswer answer_;
@@ -326,15 +325,22 @@ std::optional<TurningAnswer> invalid_end(const Scene& scene, const TurningQuesti
 
 }  // namespace
 
-TurningAnswer find_turning_path(const Scene& scene, const TurningQuestion& question, const TurningLimits& limits) {
+TurningAnswer find_turning_path(const Scene& scene, const TurningQuestion& question, const TurningLimits& limits,
+                                const Monitor& monitor) {
   for (const Pose* pose : {&question.start, &question.goal}) {
     if (pose->turn < question.low || pose->turn > question.high) {
       throw InputError("start and goal must be turned by angles of the range");
     }
   }
   if (!(question.low < question.high)) throw InputError("the range of angles must have an extent");
-  if (const std::optional<TurningAnswer> invalid = invalid_end(scene, question, limits.monitor)) return *invalid;
-  return TurningSearch(scene, question, limits).run();
+  try {
+    if (const std::optional<TurningAnswer> invalid = invalid_end(scene, question, monitor)) return *invalid;
+    return TurningSearch(scene, question, limits, monitor).run();
+  } catch (const Interrupted&) {
+    TurningAnswer answer;
+    answer.open_ranges.push_back({question.low, question.high});
+    return answer;
+  }
 }
 
 }  // namespace nef::planner

@@ -3,7 +3,6 @@
 // Paths of a robot that translates and turns about one axis, and proofs that there are none.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -16,10 +15,8 @@ namespace nef::planner {
 
 struct TurningLimits {
   std::size_t max_cells = 2000;  ///< cells of angles that the range is cut into
-  std::function<bool()> stop;    ///< asked now and then; true ends the search
   /// Round way-points to so many decimals where the motions stay free. (Turns have the digits that their cells have.)
   std::optional<unsigned> digits = {};
-  Monitor monitor = {};  ///< who watches, too; what it refers to must outlive the call
 };
 
 /// A closed range of angles.
@@ -48,7 +45,9 @@ struct TurningAnswer {
 /// start and goal are apart in the graph of those, there is no path. Otherwise the cells that a way through the latter
 /// needs and the former does not grant are split, at an angle where a face of the robot is parallel to one of an
 /// obstacle if there is one inside. Every motion of a path is checked once more before it is returned. Contact that
-/// must be kept while turning stays undecided for ever. The robot must be a bounded solid, else InputError.
-TurningAnswer find_turning_path(const Scene& scene, const TurningQuestion& question, const TurningLimits& limits = {});
+/// must be kept while turning stays undecided for ever, and what is not decided when the monitor stops the search. The
+/// robot must be a bounded solid, else InputError.
+TurningAnswer find_turning_path(const Scene& scene, const TurningQuestion& question, const TurningLimits& limits = {},
+                                const Monitor& monitor = {});
 
 }  // namespace nef::planner

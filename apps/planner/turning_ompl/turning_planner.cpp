@@ -58,8 +58,8 @@ ob::PlannerStatus TurningPlanner::solve(const ob::PlannerTerminationCondition& p
   TurningLimits limits;
   limits.max_cells = maxCells_;
   limits.digits = digits_;
-  limits.stop = [&ptc] { return ptc.eval(); };
-  answer_ = find_turning_path(scene_, question_, limits);
+  const StopQuestion question([&ptc] { return ptc.eval(); });
+  answer_ = find_turning_path(scene_, question_, limits, question.monitor());
   switch (answer_->status) {
     case TurningAnswer::Status::kInvalidStart:
       return ob::PlannerStatus::INVALID_START;

@@ -12,7 +12,7 @@
 #include "apps/planner/turning/turning_search.h"
 #include "binding/base/bindings.h"
 #include "binding/base/mesh_options.h"
-#include "nef/base/timing/stopwatch.h"
+#include "nef/base/timing/time_limit.h"
 
 namespace nef::python {
 namespace {
@@ -71,10 +71,9 @@ py::object invalid_end(const plan::Scene& scene, py::handle start, py::handle go
   return result;
 }
 
-// A function that says true after so many seconds; an empty one for None.
-std::function<bool()> stop_after(const py::object& seconds) {
-  if (seconds.is_none()) return {};
-  return [watch = Stopwatch(), most = seconds.cast<double>()] { return watch.seconds() >= most; };
+// Nothing for None.
+std::optional<double> time_of(const py::object& seconds) {
+  return seconds.is_none() ? std::nullopt : std::optional(seconds.cast<double>());
 }
 
 // A proof about a robot that turns, with what it is about.
@@ -98,11 +97,10 @@ py::dict solve_turning(const plan::Scene& scene, std::size_t max_cells, const py
   plan::TurningLimits limits;
   limits.max_cells = max_cells;
   if (!digits.is_none()) limits.digits = digits.cast<unsigned>();
-  limits.stop = stop_after(seconds);
   const plan::TurningQuestion question = plan::question_of(scene);
-  plan::TurningAnswer answer = call(kSmallCall, [=](const Monitor& monitor) mutable {
-    limits.monitor = monitor;
-    return plan::find_turning_path(scene, question, limits);
+  plan::TurningAnswer answer = call(kSmallCall, [=, time = time_of(seconds)](const Monitor& monitor) {
+    const TimeLimit limit(time, monitor);
+    return plan::find_turning_path(scene, question, limits, limit.monitor());
   });
   py::dict result;
   result["status"] = plan::status_name(answer.status);
@@ -218,16 +216,12 @@ class Space {
   // Not built if it takes longer than so many seconds, unless they are None.
   Space(plan::Scene scene, unsigned threads, const py::object& progress, const py::object& seconds) {
     const ProgressFunction told(progress);
-    const std::function<bool()> stop = stop_after(seconds);
-    problem_ = call(kSmallCall, [scene = std::move(scene), threads, told, stop](const Monitor& monitor) {
-      plan::BuildOptions options;
-      options.stop = stop;
-      options.progress = [&](const std::string& phase, std::size_t done, std::size_t total) {
-        told(monitor, phase, done, total);
-      };
-      options.monitor = monitor.on_threads(threads);
+    const std::optional<double> time = time_of(seconds);
+    problem_ = call(kSmallCall, [scene = std::move(scene), threads, told, time](const Monitor& monitor) {
+      const TimeLimit limit(time, monitor.on_threads(threads));
+      const nef::ProgressFunction tell = told_by(told, monitor);
       try {
-        return std::make_shared<const plan::Problem>(scene, options);
+        return std::make_shared<const plan::Problem>(scene, limit.monitor().telling(tell));
       } catch (const Interrupted&) {
         monitor.check_interruption();
         return std::shared_ptr<const plan::Problem>();
@@ -242,11 +236,10 @@ class Space {
     const Rational3 from = to_triple(start, "a start");
     const Rational3 to = to_triple(goal, "a goal");
     const auto problem = problem_;
-    const std::function<bool()> stop = stop_after(seconds);
-    return told(call(kSmallCall, [=](const Monitor& monitor) {
-      const StopQuestion question(stop, monitor);
+    return told(call(kSmallCall, [=, time = time_of(seconds)](const Monitor& monitor) {
+      const TimeLimit limit(time, monitor);
       try {
-        return problem->solve(from, to, options, question.monitor());
+        return problem->solve(from, to, options, limit.monitor());
       } catch (const Interrupted&) {
         monitor.check_interruption();
         plan::Answer answer;

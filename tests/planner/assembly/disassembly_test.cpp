@@ -289,12 +289,6 @@ Assembly odd_assembly() {
   return assembly;
 }
 
-DisassemblyOptions rounded_to(unsigned digits) {
-  DisassemblyOptions options;
-  options.digits = digits;
-  return options;
-}
-
 TEST_CASE("way-points of assemblies in bounded decimals") {
   const Assembly odd = odd_assembly();
   const Disassembly exact = take_apart(odd);
@@ -303,7 +297,7 @@ TEST_CASE("way-points of assemblies in bounded decimals") {
   CHECK(decimals_of(exact.steps.front().path) == -1);
   CHECK(exact.steps.front().unrounded.empty());
   for (const unsigned digits : {1U, 3U, 8U}) {
-    const Disassembly answer = take_apart(odd, rounded_to(digits));
+    const Disassembly answer = take_apart(odd, digits);
     REQUIRE(answer.steps.size() == 1);
     CHECK(answer.inseparable.empty());
     CHECK(complaint(odd, answer) == "");
@@ -324,7 +318,7 @@ TEST_CASE("way-points of assemblies in bounded decimals") {
   shear.linear[1][2] = Rational(1, 3);
   const Polyhedron peg = transform(make_box({1, 1, 1}, {2, 2, 3}), shear);
   wedge.parts = {subtract(transform(make_box({0, 0, 0}, {3, 3, 3}), shear), peg), peg};
-  const Disassembly way = take_apart(wedge, rounded_to(2));
+  const Disassembly way = take_apart(wedge, 2);
   REQUIRE(way.steps.size() == 1);
   CHECK(way.steps.front().straight);
   CHECK(complaint(wedge, way) == "");

@@ -34,22 +34,15 @@ TEST_CASE("free positions after obstacles came, went and moved are those of a ne
     REQUIRE(obstacles_are_independent(scene));
     Polyhedron free = free_positions(scene);
     for (int step = 0; step < 10; ++step) {
+      ObstacleChange change;
       if (scene.obstacles.size() > 2 && random() % 3 == 0) {
-        const std::size_t gone = random() % scene.obstacles.size();
-        free = without_obstacle(scene, free, gone);
-        scene.obstacles.erase(scene.obstacles.begin() + static_cast<std::ptrdiff_t>(gone));
-        scene.obstacle_names.pop_back();
-      } else if (scene.obstacles.size() > 1 && random() % 3 == 0) {
-        const std::size_t index = random() % scene.obstacles.size();
-        const Polyhedron moved = random_obstacle(random);
-        free = with_obstacle_moved(scene, free, index, moved);
-        scene.obstacles[index] = moved;
+        change.index = random() % scene.obstacles.size();
       } else {
-        const Polyhedron obstacle = random_obstacle(random);
-        free = with_obstacle(scene, free, obstacle);
-        scene.obstacles.push_back(obstacle);
-        scene.obstacle_names.emplace_back("box");
+        if (scene.obstacles.size() > 1 && random() % 3 == 0) change.index = random() % scene.obstacles.size();
+        change.obstacle = random_obstacle(random);
       }
+      free = free_positions_after(change, scene, free);
+      apply(change, scene);
       CHECK(equal(free, free_positions(scene)));
     }
   }

@@ -124,9 +124,9 @@ TEST_CASE("the free space is built once, or for every query if it is not to be k
   const World world("s1_tight_hole");
   int built = 0;
   const auto inner = free_space_builder(world.problem.scene());
-  TightPlanner planner(world.si, [&](const std::function<bool()>& stop) {
+  TightPlanner planner(world.si, [&](const Monitor& monitor) {
     ++built;
-    return inner(stop);
+    return inner(monitor);
   });
   planner.setProblemDefinition(world.definition);
   for (int query = 0; query < 3; ++query) {

@@ -237,7 +237,7 @@ std::string waypoints(const Polyhedron& /*set*/, const std::string& /*text*/) {
 void read_waypoints_file(const std::string& text) {
   const test::TemporaryFolder folder;
   write_file(folder.file("path.json"), text);
-  static_cast<void>(planner::read_waypoints(folder.file("path.json")));
+  static_cast<void>(planner::read_path(folder.file("path.json")));
 }
 
 std::string rigid_path(const Polyhedron& /*set*/, const std::string& /*text*/) {
@@ -245,22 +245,15 @@ std::string rigid_path(const Polyhedron& /*set*/, const std::string& /*text*/) {
   {"position": [1e1, 0, 0], "quaternion": [1, 0, 0.5, "-2"]}]})";
 }
 
-void read_rigid_path(const std::string& text) {
-  const test::TemporaryFolder folder;
-  write_file(folder.file("path.json"), text);
-  static_cast<void>(planner::read_poses(folder.file("path.json")));
-}
-
 std::string path_lines(const Polyhedron& /*set*/, const std::string& /*text*/) {
   return "0 0 0 0 0 0 1\n\n1/3 0.5, 1e1 0 -2 0.5 1\r\n-1,2,3 0 0 0 1\n";
 }
 
-// As programs do: a path that does not turn is one of translations.
 void read_path_lines(const std::string& text) {
   const test::TemporaryFolder folder;
   const std::string file = folder.file("path.txt");
   write_file(file, text);
-  if (!planner::read_poses(file)) static_cast<void>(planner::read_waypoints(file));
+  static_cast<void>(planner::read_path(file));
 }
 
 std::string proof_of_path(const Polyhedron& /*set*/, const std::string& /*text*/) {
@@ -317,7 +310,7 @@ std::vector<Format> other_formats() {
       Format{"planner-scene", planner_scene, read_planner_scene},
       Format{"cfg", ompl_problem, read_ompl_problem},
       Format{"waypoints", waypoints, read_waypoints_file},
-      Format{"rigid-path", rigid_path, read_rigid_path},
+      Format{"rigid-path", rigid_path, read_waypoints_file},
       Format{"path-lines", path_lines, read_path_lines},
       Format{"path-proof", proof_of_path, read_proof_file},
       Format{"collision-proof", proof_of_collision, read_proof_file},

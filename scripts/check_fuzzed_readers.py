@@ -33,7 +33,7 @@ THROUGH = {
     "parse_expression": "evaluate_expression",
     "parse_exact_json": "parse_scene",
     "parse_numbers": "words of the command line",
-    "parse_lines": "read_waypoints and read_poses, which it reads for",
+    "parse_lines": "read_path, which it reads for",
     "parse_triple": "words of the command line",
     "parse_steps": "evaluate_expression, a line each",
     "read_polygons": "read_json_scene, whose rings it reads",

@@ -210,14 +210,14 @@ class WideCase {
     planner::PathOptions options;
     options.thorough = choices_.below(2) == 1;
     const planner::Answer complete = problem.solve(*scene_.start, *scene_.goal, options);
-    const std::optional<planner::PartialAnswer> part = planner::interior_answer(scene_, options);
+    const std::optional<planner::Answer> part = planner::interior_answer(scene_, options);
     const bool roomy =
         complete.path && complete.thinness && complete.thinness->piece == 3 && complete.thinness->junction == 3;
     Case::require(part.has_value() == roomy, "existence: " + question + ", want " + (roomy ? "a path" : "none"));
     const bool proved = complete.status == planner::Answer::Status::kInfeasible;
     case_.count(roomy ? "paths" : complete.path ? "tight ones" : proved ? "proofs" : "invalid");
     if (!part) return;
-    check(part->answer.path->points, question);
+    check(part->path->points, question);
     check(complete.path->points, "completely " + question);
   }
 

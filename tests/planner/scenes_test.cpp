@@ -10,7 +10,7 @@
 #include <set>
 
 #include "apps/planner/assembly/disassembly.h"
-#include "apps/planner/clearance/keep_clear.h"
+#include "apps/planner/clearance/widest.h"
 #include "apps/planner/ompl/tight_planner.h"
 #include "apps/planner/path/question.h"
 #include "apps/planner/turning/turning_search.h"

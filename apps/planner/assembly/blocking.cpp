@@ -63,14 +63,7 @@ const std::vector<Blocking::Body>& Blocking::bodies(std::size_t a, std::size_t b
       for (const Rational3& x : p) {
         for (const Rational3& y : q) differences.push_back(minus(y, x));
       }
-      const Mesh mesh = minkowski::hull_cell(differences, monitor_).mesh;
-      Body& body = made.emplace_back();
-      for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-        const auto ring = mesh.face(f);
-        const Rational3& corner = mesh.vertices[ring[0]];
-        const Rational3 normal = cross(minus(mesh.vertices[ring[1]], corner), minus(mesh.vertices[ring[2]], corner));
-        body.faces.push_back({normal, dot(normal, corner)});
-      }
+      made.push_back({half_spaces_of(minkowski::hull_cell(differences, monitor_).mesh)});
     }
   }
   return known.emplace(std::move(made));
@@ -80,7 +73,7 @@ const std::vector<Blocking::Body>& Blocking::bodies(std::size_t a, std::size_t b
 bool Blocking::Body::meets_ray(const Rational3& d) const {
   Rational low = 0;
   std::optional<Rational> high;
-  for (const Face& face : faces) {
+  for (const HalfSpace& face : faces) {
     const Rational slope = dot(face.normal, d);
     if (slope == 0) {
       if (face.offset <= 0) return false;
@@ -97,14 +90,14 @@ bool Blocking::Body::meets_ray(const Rational3& d) const {
 }
 
 bool Blocking::Body::meets_start(const Rational3& d) const {
-  return std::all_of(faces.begin(), faces.end(), [&d](const Face& face) {
+  return std::all_of(faces.begin(), faces.end(), [&d](const HalfSpace& face) {
     return face.offset > 0 || (face.offset == 0 && dot(face.normal, d) < 0);
   });
 }
 
 bool Blocking::Body::holds_origin(bool inside) const {
   return std::all_of(faces.begin(), faces.end(),
-                     [inside](const Face& face) { return inside ? face.offset > 0 : face.offset >= 0; });
+                     [inside](const HalfSpace& face) { return inside ? face.offset > 0 : face.offset >= 0; });
 }
 
 std::optional<std::pair<std::size_t, std::size_t>> Blocking::overlapping() {
@@ -143,7 +136,7 @@ std::vector<std::vector<Rational3>> Blocking::blocked_cones(std::size_t a) {
     for (const Body& body : bodies(first, second)) {
       if (!body.holds_origin(false)) continue;
       std::vector<Rational3>& normals = result.emplace_back();
-      for (const Face& face : body.faces) {
+      for (const HalfSpace& face : body.faces) {
         if (face.offset != 0) continue;
         const Rational3& n = face.normal;
         normals.push_back(a < b ? n : Rational3{-n[0], -n[1], -n[2]});
@@ -161,7 +154,7 @@ std::optional<std::vector<Rational3>> Blocking::directions() {
       if (!pair(a, b).box.holds_origin(false)) continue;
       for (const Body& body : bodies(a, b)) {
         if (!body.holds_origin(false)) continue;
-        for (const Face& face : body.faces) {
+        for (const HalfSpace& face : body.faces) {
           if (face.offset != 0) continue;
           const Integer3 normal = primitive(face.normal);
           normals.insert(std::max(normal, opposite(normal)));

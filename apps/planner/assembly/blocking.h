@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/planner/free_space/hulls_apart.h"
 #include "nef/base/monitor.h"
 #include "nef/polyhedron.h"
 
@@ -39,12 +40,8 @@ class Blocking {
   std::optional<std::vector<Rational3>> directions();
 
  private:
-  struct Face {
-    Rational3 normal;
-    Rational offset;  // the body is where normal * x <= offset
-  };
   struct Body {
-    std::vector<Face> faces;
+    std::vector<HalfSpace> faces;
     [[nodiscard]] bool meets_ray(const Rational3& d) const;
     [[nodiscard]] bool meets_start(const Rational3& d) const;
     [[nodiscard]] bool holds_origin(bool inside) const;

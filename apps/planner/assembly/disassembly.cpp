@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
 
 #include "apps/minkowski/minkowski.h"
 #include "apps/planner/assembly/blocking.h"
@@ -27,6 +28,12 @@ namespace {
 
 Rational3 negative(const Rational3& d) { return {-d[0], -d[1], -d[2]}; }
 
+PartSet all_parts(const Assembly& assembly) {
+  PartSet parts(assembly.parts.size());
+  std::iota(parts.begin(), parts.end(), std::size_t{0});
+  return parts;
+}
+
 class TakingApart {
  public:
   TakingApart(const Assembly& assembly, const std::optional<unsigned>& digits, const Monitor& monitor)
@@ -39,9 +46,7 @@ class TakingApart {
   }
 
   Disassembly run() {
-    PartSet whole;
-    for (std::size_t i = 0; i < assembly_.parts.size(); ++i) whole.push_back(i);
-    std::vector<PartSet> together{whole};
+    std::vector<PartSet> together{all_parts(assembly_)};
     while (!together.empty()) {
       const PartSet parts = together.back();
       together.pop_back();
@@ -302,7 +307,13 @@ class TakingApart {
 }  // namespace
 
 Disassembly take_apart(const Assembly& assembly, const std::optional<unsigned>& digits, const Monitor& monitor) {
-  return TakingApart(assembly, digits, monitor).run();
+  try {
+    return TakingApart(assembly, digits, monitor).run();
+  } catch (const Interrupted&) {  // before anything was known
+    Disassembly answer;
+    answer.undecided.push_back({all_parts(assembly)});
+    return answer;
+  }
 }
 
 }  // namespace nef::planner

@@ -5,6 +5,7 @@
 
 #include "apps/planner/scene/shapes.h"
 #include "apps/program/exact_json.h"
+#include "apps/program/json_reader.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 
@@ -12,30 +13,16 @@ namespace nef::planner {
 
 Assembly parse_assembly(const std::string& text, const std::string& folder, const std::string& name,
                         const MeshOptions& meshes) {
-  const nlohmann::json root = parse_exact_json(text, name);
-  if (!root.is_object() || !root.contains("parts") || !root["parts"].is_object()) {
-    throw InputError(name + R"(: an assembly is {"parts": {"name": file or expression, ...}})");
-  }
-  for (const auto& item : root.items()) {
-    if (item.key() != "parts") throw InputError(name + ": unknown key '" + item.key() + "' (known: parts)");
-  }
+  const nlohmann::json value = parse_exact_json(text, name);
+  const JsonReader root(value, name);
+  root.require_keys({"parts"});
+  if (!value["parts"].is_object()) root.fail(R"(an assembly is {"parts": {"name": file or expression, ...}})");
   Assembly assembly;
   assembly.name = std::filesystem::path(name).stem().string();
-  for (const auto& item : root["parts"].items()) {
-    const std::string what = name + ": part '" + item.key() + "'";
-    if (!item.value().is_string()) throw InputError(what + ": expected a file name or an expression in quotes");
-    Polyhedron part;
-    try {
-      part =
-          closure(shape_of_text(item.value().get<std::string>(), folder, meshes, &assembly.messages), meshes.monitor);
-    } catch (const InputError& error) {
-      throw InputError(what + ": " + error.what());
-    }
-    if (part.is_empty() || !part.is_bounded() || !part.is_regular()) {
-      throw InputError(what + ": a part must be a bounded solid without surfaces, curves or points sticking out");
-    }
+  for (const auto& item : value["parts"].items()) {
+    const JsonReader part(item.value(), name + ": part '" + item.key() + "'");
+    assembly.parts.push_back(solid_of(part, folder, meshes, assembly.messages));
     assembly.names.push_back(item.key());
-    assembly.parts.push_back(std::move(part));
   }
   if (assembly.parts.empty()) throw InputError(name + ": the assembly has no parts");
   return assembly;

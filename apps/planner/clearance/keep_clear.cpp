@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/planner/clearance/keep_clear.h"
+#include "apps/planner/clearance/widest.h"
 
 #include "apps/minkowski/minkowski.h"
 #include "nef/base/error.h"

@@ -40,4 +40,12 @@ struct Widest {
 Widest find_widest(const Rational& first, const Rational& precision, bool down,
                    const std::function<Verdict(const Rational&)>& verdict);
 
+/// A polytope of 30 faces that holds the ball of this radius about the origin and lies in one 1.2 times as large.
+Polyhedron around_ball(const Rational& radius, const Monitor& monitor = {});
+
+/// Makes the robot larger by around_ball(distance): whatever is free then keeps at least that distance from all
+/// obstacles, wherever the robot is turned, and all that keeps 1.2 times the distance is free. Adds a message that says
+/// so. Throws InputError unless the distance is positive.
+void keep_clear(Scene& scene, const Rational& distance, const Monitor& monitor = {});
+
 }  // namespace nef::planner

@@ -163,16 +163,6 @@ void check_usage(const Arguments& a) {
   if (!a.ompl.empty()) require_ompl_planner(a.ompl);
 }
 
-void print_result(const Arguments& a, const std::function<std::string()>& report,
-                  const std::function<void()>& for_people) {
-  a.session.hide_phase();
-  if (a.session.json) {
-    std::cout << report();
-  } else if (!a.session.quiet) {
-    for_people();
-  }
-}
-
 void declare(CLI::App& app, Arguments& a) {
   a.app = &app;
   app.add_option("scene", a.scene, "Scene (.json, or OMPL.app .cfg)")->type_name("FILE");
@@ -199,8 +189,14 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--start", a.start, "x,y,z in place of the scene's start; x,y,z,degrees for a robot that turns")
       ->type_name("X,Y,Z");
   app.add_option("--goal", a.goal, "... in place of the scene's goal")->type_name("X,Y,Z");
-  app.add_option("--contact", a.contact, "May the robot touch obstacles?")->check(CLI::IsMember({"allow", "forbid"}));
-  app.add_option("--prefer", a.prefer, "short: any passage will do; roomy: thin passages only where needed")
+  const auto take_contact = [&a](const std::string& rule) {
+    a.contact = rule == "allow" ? ContactRule::kAllow : ContactRule::kForbid;
+  };
+  app.add_option_function<std::string>("--contact", take_contact, "May the robot touch obstacles?")
+      ->check(CLI::IsMember({"allow", "forbid"}));
+  app.add_option_function<std::string>(
+         "--prefer", [&a](const std::string& kind) { a.path.roomy = kind == "roomy"; },
+         "short: any passage will do; roomy: thin passages only where needed")
       ->check(CLI::IsMember({"short", "roomy"}));
   app.add_option("--min-dimension", a.path.min_dimension, "Stay where free space is at least this thick")
       ->check(CLI::Range(0, 3));

@@ -4,12 +4,13 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
-#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/planner/clearance/timing.h"
 #include "apps/planner/path/path.h"
+#include "apps/planner/scene/scene.h"
 #include "apps/program/session.h"
 
 namespace nef::planner {
@@ -28,8 +29,7 @@ struct Arguments {
   std::string page;
   std::string start;
   std::string goal;
-  std::string contact;
-  std::string prefer = "short";
+  std::optional<ContactRule> contact;
   std::string given_path;
   std::string queries;
   std::string proof;
@@ -60,10 +60,6 @@ void exclude(const Arguments& arguments, const std::string& what, const std::vec
 /// Throws InputError if a file of -o has none of these extensions, in lower case without a dot; `where` says when.
 void require_extensions(const Arguments& arguments, const std::string& where,
                         const std::vector<const char*>& extensions);
-
-/// Prints the report of a run with --json, else, unless --quiet, what `for_people` prints.
-void print_result(const Arguments& arguments, const std::function<std::string()>& report,
-                  const std::function<void()>& for_people);
 
 /// Declares all options; parsing fills `arguments`. Both `app` and `arguments` must outlive the run.
 void declare(CLI::App& app, Arguments& arguments);

@@ -3,16 +3,17 @@
 // One run: check the options, read the parts, take them apart, write files, print. The report, the text and the layers
 // of pages are made from the same Disassembly. In a page each step takes an equal share of the time, and each part
 // moves along its path at constant speed.
-#include "apps/planner/command/assembly_run.h"
+#include "apps/planner/command/runs.h"
 
 #include <iostream>
 
 #include "apps/planner/assembly/blocking.h"
+#include "apps/planner/assembly/disassembly.h"
 #include "apps/planner/assembly/free_directions.h"
+#include "apps/planner/command/findings.h"
 #include "apps/planner/command/report.h"
 #include "apps/planner/command/scene_view.h"
 #include "apps/program/exact_json.h"
-#include "apps/program/run_report.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/base/timing/time_limit.h"
@@ -62,19 +63,18 @@ json stuck_json(const Inseparable& stuck, const Assembly& assembly) {
 
 // Each part in a layer of its own. A step takes the same time as any other, along its path at constant speed.
 std::vector<view::Layer> layers_of(const Disassembly& answer, const Assembly& assembly) {
-  std::vector<view::Layer> layers;
-  view::SceneOptions options;
-  options.box = view::visible_box(assembly.parts);
-  const double slot = kPlaySeconds / static_cast<double>(std::max<std::size_t>(1, answer.steps.size()));
+  std::vector<ShownSet> parts;
   for (std::size_t part = 0; part < assembly.parts.size(); ++part) {
-    view::Layer& layer = layers.emplace_back();
-    layer.name = assembly.names[part];
-    layer.scene = view::build_scene(assembly.parts[part], options);
-    layer.color = view::palette_color(part);
-    if (answer.steps.empty()) continue;
+    parts.push_back({assembly.names[part], assembly.parts[part], view::palette_color(part)});
+  }
+  std::vector<view::Layer> layers = layers_of(parts);
+  if (answer.steps.empty()) return layers;
+  const double slot = kPlaySeconds / static_cast<double>(answer.steps.size());
+  for (std::size_t part = 0; part < layers.size(); ++part) {
+    view::Motion& motion = layers[part].motion;
     view::Point at{0, 0, 0};
-    layer.motion.times.push_back(0);
-    layer.motion.offsets.push_back(at);
+    motion.times.push_back(0);
+    motion.offsets.push_back(at);
     for (std::size_t k = 0; k < answer.steps.size(); ++k) {
       const DisassemblyStep& step = answer.steps[k];
       const bool moves = std::find(step.parts.begin(), step.parts.end(), part) != step.parts.end();
@@ -86,14 +86,14 @@ std::vector<view::Layer> layers_of(const Disassembly& answer, const Assembly& as
         way += distance(step.path[i - 1], step.path[i]);
         for (std::size_t c = 0; c < 3; ++c) at[c] = begin[c] + nearest_double(step.path[i][c]);
         const double time = slot * (static_cast<double>(k) + way / length);
-        if (!(time > layer.motion.times.back())) continue;
-        layer.motion.times.push_back(time);
-        layer.motion.offsets.push_back(at);
+        if (!(time > motion.times.back())) continue;
+        motion.times.push_back(time);
+        motion.offsets.push_back(at);
       }
       const double end = slot * static_cast<double>(k + 1);
-      if (end > layer.motion.times.back()) {
-        layer.motion.times.push_back(end);
-        layer.motion.offsets.push_back(at);
+      if (end > motion.times.back()) {
+        motion.times.push_back(end);
+        motion.offsets.push_back(at);
       }
     }
   }
@@ -111,7 +111,7 @@ void print(const Disassembly& answer, const Assembly& assembly) {
               << (step.straight ? "" : " " + std::to_string(step.path.size()) + " way-points") << ", to";
     for (const Rational& x : step.path.back()) std::cout << ' ' << brief_text(x);
     std::cout << '\n';
-    if (!step.unrounded.empty()) std::cout << unrounded_text(step.unrounded);
+    std::cout << unrounded_text(step.unrounded);
   }
   for (const Inseparable& stuck : answer.inseparable) {
     std::cout << "inseparable: " << list_of(stuck.parts, assembly)
@@ -148,33 +148,26 @@ int tell_free_directions(const Arguments& a, const Assembly& assembly) {
   for (const Integer3& ray : free.rays) {
     rays.push_back({ray[0].get_str(), ray[1].get_str(), ray[2].get_str()});
   }
-  Json report{{"assembly", assembly.name},
-              {"part", a.free_directions},
-              {"dimension", free.dimension},
-              {"everything", free.everything},
-              {"rays", rays}};
-  // Sets first: reports say what is to be known of their files.
-  const auto is_report = [](const std::string& file) { return lower_extension(file) == "json"; };
+  // Sets first: the report says what is to be known of their files.
   for (const std::string& file : a.outputs) {
-    if (is_report(file)) continue;
-    a.session.store_at(file, free.cone, a.session.write_options(file));
+    if (lower_extension(file) != "json") a.session.store_at(file, free.cone, a.session.write_options(file));
   }
-  a.session.add_offsets(report);
-  std::string text =
-      report_text(run_report("free_directions", report, {{"op", watch.seconds(), {}}}, a.session.notes()));
-  for (const std::string& file : a.outputs) {
-    if (is_report(file)) write_file(file, text);
-  }
+  const auto report = [&] {
+    Json members{{"assembly", assembly.name},
+                 {"part", a.free_directions},
+                 {"dimension", free.dimension},
+                 {"everything", free.everything},
+                 {"rays", rays}};
+    a.session.add_offsets(members);
+    return members;
+  };
   const auto print_cone = [&free] {
     std::cout << (free.everything ? "every direction" : "dimension " + std::to_string(free.dimension)) << '\n';
     for (const Integer3& ray : free.rays) std::cout << ray[0] << ' ' << ray[1] << ' ' << ray[2] << '\n';
   };
-  print_result(
-      a, [&] { return text; }, print_cone);
+  tell(a, {"free_directions", assembly.name, report, {{"op", watch.seconds(), {}}}, print_cone});
   return 0;
 }
-
-}  // namespace
 
 json assembly_json(const Disassembly& answer, const Assembly& assembly) {
   json result{
@@ -198,20 +191,21 @@ json assembly_json(const Disassembly& answer, const Assembly& assembly) {
   return result;
 }
 
+}  // namespace
+
 int run_assembly(const Arguments& a) {
   const TimeLimit limit(a.time, a.session.monitor);
   const Assembly assembly = read_assembly(a.assembly, a.session.mesh);
   a.session.note_all(assembly.messages);
   if (!a.free_directions.empty()) return tell_free_directions(a, assembly);
   const Disassembly answer = take_apart(assembly, a.path.digits, limit.monitor());
-  a.session.hide_phase();
-  std::string text = report_text(
-      run_report("assembly", assembly_json(answer, assembly), {{"op", limit.passed(), {}}}, assembly.messages));
-  write_outputs(
-      a, assembly.name, [&text](const std::string&) { return std::optional(text); },
-      [&] { return layers_of(answer, assembly); });
-  print_result(
-      a, [&] { return text; }, [&] { print(answer, assembly); });
+  tell(a, {"assembly",
+           assembly.name,
+           [&] { return assembly_json(answer, assembly); },
+           {{"op", limit.passed(), {}}},
+           [&] { print(answer, assembly); },
+           nullptr,
+           [&] { return layers_of(answer, assembly); }});
   if (answer.overlap) return 3;
   if (!answer.inseparable.empty()) return 1;
   return answer.undecided.empty() ? 0 : 5;

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/planner/command/certify_run.h"
+#include "apps/planner/command/runs.h"
 
 #include <iostream>
 
-#include "apps/planner/command/proof_run.h"
+#include "apps/planner/command/findings.h"
 #include "apps/planner/rigid/certified_path.h"
 #include "apps/program/exact_json.h"
-#include "apps/program/run_report.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
-#include "nef/io/file_bytes.h"
 
 namespace nef::planner {
 namespace {
@@ -17,15 +15,7 @@ namespace {
 using nlohmann::json;
 
 const char* status_text(MotionVerdict::Status status) {
-  switch (status) {
-    case MotionVerdict::Status::kFree:
-      return "path";
-    case MotionVerdict::Status::kCollides:
-      return "blocked";
-    case MotionVerdict::Status::kUndecided:
-      break;
-  }
-  return "undecided";
+  return std::array{"path", "blocked", "undecided"}.at(static_cast<std::size_t>(status));
 }
 
 json pose_json(const RigidPose& pose) {
@@ -84,19 +74,18 @@ int run_certify(const Arguments& a, const Scene& scene, const std::vector<RigidP
   exclude(a, "a path with rotations", {"--tight", "--queries", "--page", "--widest", "--widest-box"});
   require_extensions(a, "for a path with rotations", {"json"});
   const Stopwatch watch;
-  const Scene unturned = with_robot_as_in_its_file(scene);
-  const MotionChecker checker = MotionChecker::of_scene(unturned);
+  const Scene unturned = with_robot_as_in_its_file(scene, a.session.monitor);
+  const MotionChecker checker = MotionChecker::of_scene(unturned, a.session.monitor);
   const double setup_s = watch.seconds();
   CheckLimits limits;
   limits.keep_parts = !a.proof.empty();
   const CertifiedPath path = certify(checker, poses, MotionTiming::kSlerp, limits);
-  std::string text =
-      report_text(run_report("certify", certified_json(path, poses, scene),
-                             {{"setup", setup_s, {}}, {"op", watch.seconds() - setup_s, {}}}, scene.messages));
-  for (const std::string& file : a.outputs) write_file(file, text);
   write_path_proof(a, checker, poses, path);
-  print_result(
-      a, [&] { return text; }, [&] { print(path); });
+  tell(a, {"certify",
+           scene.name,
+           [&] { return certified_json(path, poses, scene); },
+           {{"setup", setup_s, {}}, {"op", watch.seconds() - setup_s, {}}},
+           [&] { print(path); }});
   if (path.status == MotionVerdict::Status::kFree) return 0;
   return path.status == MotionVerdict::Status::kCollides ? 1 : 5;
 }

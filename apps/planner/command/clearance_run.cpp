@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/planner/command/clearance_run.h"
+#include "apps/planner/command/runs.h"
 
 #include <cmath>
 #include <sstream>
 
 #include "apps/planner/clearance/widest.h"
-#include "apps/planner/command/turning_view.h"
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/free_space/free_space.h"
 #include "nef/base/error.h"

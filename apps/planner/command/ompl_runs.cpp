@@ -141,8 +141,7 @@ TurningAnswer run_turning_ompl(const Scene& scene, const std::string& planner, d
   return answer;
 }
 
-int run_benchmark(const Problem& problem, const std::vector<std::string>& planners, double seconds, unsigned runs,
-                  const std::string& log, bool quiet) {
+int run_benchmark(const Problem& problem, const Arguments& a) {
   const QuietOmpl quiet_ompl;
   const Answer ends = problem.solve();
   if (ends.collision) {
@@ -156,7 +155,7 @@ int run_benchmark(const Problem& problem, const std::vector<std::string>& planne
   const auto tight = std::make_shared<TightPlanner>(setup.getSpaceInformation(), free_space_builder(problem.scene()));
   tight->setKeepRoadmap(false);
   benchmark.addPlanner(tight);
-  for (const std::string& name : planners) {
+  for (const std::string& name : a.planners) {
     benchmark.addPlanner(make_ompl_planner(name, setup.getSpaceInformation()));
   }
   benchmark.setPostRunEvent([&](const ob::PlannerPtr& planner, ompl::tools::Benchmark::RunProperties& properties) {
@@ -169,15 +168,17 @@ int run_benchmark(const Problem& problem, const std::vector<std::string>& planne
     properties["preprocessing REAL"] = std::to_string(ours != nullptr ? ours->getPreprocessingTime() : 0.0);
   });
   ompl::tools::Benchmark::Request request;
-  request.maxTime = seconds;
-  request.runCount = runs;
+  request.maxTime = a.time.value_or(kOmplSeconds);
+  request.runCount = a.runs;
   request.displayProgress = false;
   request.saveConsoleOutput = false;
   benchmark.benchmark(request);
   std::ostringstream text;
   benchmark.saveResultsToStream(text);
-  write_file(log, text.str());
-  if (!quiet) std::printf("benchmark of %zu planners, %u runs each: %s\n", planners.size() + 1, runs, log.c_str());
+  write_file(a.benchmark, text.str());
+  if (!a.session.quiet) {
+    std::printf("benchmark of %zu planners, %u runs each: %s\n", a.planners.size() + 1, a.runs, a.benchmark.c_str());
+  }
   return 0;
 }
 

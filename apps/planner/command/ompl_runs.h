@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/planner/command/arguments.h"
 #include "apps/planner/path/question.h"
 #include "apps/planner/turning/turning_search.h"
 
@@ -36,10 +37,9 @@ OmplOutcome run_ompl(const Problem& problem, const OmplRequest& request);
 /// between two way-points the robot may move and turn at once.
 TurningAnswer run_turning_ompl(const Scene& scene, const std::string& planner, double seconds);
 
-/// Writes OMPL's benchmark log (for ompl_benchmark_statistics): our planner and the given ones. Returns the exit code:
-/// 0, or 3 if start or goal is not free. Throws InputError if one is missing. TightPlanner's runs include the
+/// Writes OMPL's benchmark log (for ompl_benchmark_statistics): our planner and those of --planners. Returns the exit
+/// code: 0, or 3 if start or goal is not free. Throws InputError if one is missing. TightPlanner's runs include the
 /// construction of the free space from the scene.
-int run_benchmark(const Problem& problem, const std::vector<std::string>& planners, double seconds, unsigned runs,
-                  const std::string& log, bool quiet);
+int run_benchmark(const Problem& problem, const Arguments& a);
 
 }  // namespace nef::planner

@@ -2,14 +2,13 @@
 //
 // Proofs of translations are those of a rigid path whose poses are not turned: the path is certified anew, pair by
 // pair, and what was found must agree with the answer.
-#include "apps/planner/command/proof_run.h"
+#include "apps/planner/command/runs.h"
 
 #include <iostream>
 
-#include "apps/planner/path/path_file.h"
+#include "apps/planner/command/findings.h"
 #include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid/pose_file.h"
-#include "apps/program/run_report.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 
@@ -22,26 +21,20 @@ std::vector<RigidPose> poses_of(const std::vector<Rational3>& points) {
   return poses;
 }
 
-// The points of a path that an answer is about; no points if the answer is about something else.
-std::vector<Rational3> points_about(const Scene& scene, const Answer& answer, const std::vector<Rational3>& points) {
+// The path that an answer is about; no poses if the answer is about something else.
+std::vector<RigidPose> poses_about(const Scene& scene, const Answer& answer, const std::vector<RigidPose>& given) {
   switch (answer.status) {
     case Answer::Status::kPath:
-      return answer.path->points;
+      return poses_of(answer.path->points);
     case Answer::Status::kBlocked:
-      return points;
+      return given;
     case Answer::Status::kInvalidStart:
-      return {*scene.start};
+      return poses_of({*scene.start});
     case Answer::Status::kInvalidGoal:
-      return {*scene.goal};
+      return poses_of({*scene.goal});
     default:
       return {};
   }
-}
-
-// The poses in the file of --path.
-std::vector<RigidPose> given_poses(const std::string& file) {
-  if (auto poses = read_poses(file)) return *std::move(poses);
-  return poses_of(read_waypoints(file));
 }
 
 bool same_poses(const std::vector<RigidPose>& a, const std::vector<RigidPose>& b) {
@@ -63,25 +56,25 @@ void write_path_proof(const Arguments& a, const MotionChecker& checker, const st
   }
 }
 
-void write_translation_proof(const Arguments& a, const Scene& scene, const Polyhedron& positions, const Answer& answer,
-                             const std::vector<Rational3>& points) {
+void write_translation_proof(const Arguments& a, const Scene& scene, const FreeSpace* free, const Answer& answer,
+                             const std::vector<RigidPose>& given) {
   if (a.proof.empty()) return;
   if (answer.status == Answer::Status::kInfeasible) {
-    const std::optional<PathProof> proof = make_barrier_proof(scene, positions, *scene.start, *scene.goal);
+    const std::optional<PathProof> proof = make_barrier_proof(scene, free->set(), *scene.start, *scene.goal);
     if (!proof) {
       throw InputError("--proof " + a.proof + ": no barrier of solid pieces separates start and goal by a distance");
     }
     write_file(a.proof, proof_text(*proof));
     return;
   }
-  const std::vector<RigidPose> poses = poses_of(points_about(scene, answer, points));
+  const std::vector<RigidPose> poses = poses_about(scene, answer, given);
   if (poses.empty()) throw InputError("--proof " + a.proof + ": the scene has no question; give it a start and a goal");
   const MotionChecker checker = MotionChecker::of_scene(scene);
   CheckLimits limits;
   limits.keep_parts = true;
   const CertifiedPath known = certify(checker, poses, MotionTiming::kSlerp, limits);
-  const bool free = answer.status == Answer::Status::kPath;
-  if (known.status != (free ? MotionVerdict::Status::kFree : MotionVerdict::Status::kCollides)) {
+  const bool is_path = answer.status == Answer::Status::kPath;
+  if (known.status != (is_path ? MotionVerdict::Status::kFree : MotionVerdict::Status::kCollides)) {
     throw InputError("--proof " + a.proof +
                      ": robot and obstacles touch where one of them is a surface, of which there is no proof");
   }
@@ -94,12 +87,12 @@ int tell_check(const Arguments& a, const Scene& scene, const std::optional<std::
     nlohmann::json all{{"scene", scene.name}, {"holds", !complaint}};
     all.update(found);
     if (complaint) all["complaint"] = *complaint;
-    return report_text(run_report("check_proof", all, {{"op", watch.seconds(), {}}}, scene.messages));
+    return all;
   };
   const auto print = [&] {
     std::cout << (complaint ? "the proof does not hold: " + *complaint : "the proof holds" + what_holds) << '\n';
   };
-  print_result(a, report, print);
+  tell(a, {"check_proof", scene.name, report, {{"op", watch.seconds(), {}}}, print});
   return complaint ? 1 : 0;
 }
 
@@ -111,7 +104,7 @@ std::optional<int> run_check_proof(const Arguments& a, const Scene& scene) {
   const PathProof proof = parse_proof(text, a.check_proof);
   std::optional<std::string> complaint = complaint_about(proof);
   if (!complaint) complaint = complaint_about(proof.claim, scene);
-  if (!complaint && !a.given_path.empty() && !same_poses(proof.claim.path, given_poses(a.given_path))) {
+  if (!complaint && !a.given_path.empty() && !same_poses(proof.claim.path, read_path(a.given_path))) {
     complaint = "it is about another path than " + a.given_path;
   }
   const std::string claim = status_word(proof.claim.status);

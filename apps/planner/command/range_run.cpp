@@ -2,17 +2,16 @@
 //
 // One run: read the mechanism, find its range, write the report, print a line for each part. The report has the ends as
 // exact roots and as doubles; the text has doubles and the first pair of items that touch.
-#include "apps/planner/command/range_run.h"
+#include "apps/planner/command/runs.h"
 
 #include <algorithm>
 #include <iostream>
 
-#include "apps/program/exact_json.h"
-#include "apps/program/run_report.h"
+#include "apps/planner/command/findings.h"
+#include "apps/planner/mechanism/range_of_motion.h"
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
 #include "nef/base/timing/time_limit.h"
-#include "nef/io/file_bytes.h"
 #include "nef/io/number_text.h"
 
 namespace nef::planner {
@@ -21,29 +20,11 @@ namespace {
 using nlohmann::json;
 
 const char* status_text(RangeStatus status) {
-  switch (status) {
-    case RangeStatus::kFree:
-      return "free";
-    case RangeStatus::kTouching:
-      return "touching";
-    case RangeStatus::kColliding:
-      return "colliding";
-    case RangeStatus::kUndecided:
-      break;
-  }
-  return "undecided";
+  return std::array{"free", "touching", "colliding", "undecided"}.at(static_cast<std::size_t>(status));
 }
 
 const char* joint_text(Joint::Kind kind) {
-  switch (kind) {
-    case Joint::Kind::kHinge:
-      return "hinge";
-    case Joint::Kind::kSlider:
-      return "slider";
-    case Joint::Kind::kScrew:
-      break;
-  }
-  return "screw";
+  return std::array{"hinge", "slider", "screw"}.at(static_cast<std::size_t>(kind));
 }
 
 // Some 18 digits beyond the point.
@@ -99,10 +80,9 @@ void print(const RangeOfMotion& range, const Mechanism& m) {
   }
 }
 
-}  // namespace
-
 json range_json(const RangeOfMotion& range, const Mechanism& m) {
-  json result{{"joint", joint_text(m.joint.kind())}, {"fixed", m.fixed_names}, {"parts", json::array()}};
+  json result{
+      {"mechanism", m.name}, {"joint", joint_text(m.joint.kind())}, {"fixed", m.fixed_names}, {"parts", json::array()}};
   for (const RangePart& part : range.parts) {
     result["parts"].push_back(
         {{"status", status_text(part.status)}, {"from", end_json(part.from, m)}, {"to", end_json(part.to, m)}});
@@ -111,6 +91,8 @@ json range_json(const RangeOfMotion& range, const Mechanism& m) {
   result["events"] = range.events;
   return result;
 }
+
+}  // namespace
 
 int run_range(const Arguments& a) {
   const TimeLimit limit(a.time, a.session.monitor);
@@ -123,13 +105,11 @@ int run_range(const Arguments& a) {
   } catch (const Interrupted&) {
     range.parts.assign(1, {RangeStatus::kUndecided, {mechanism.low, {}}, {mechanism.high, {}}});
   }
-  json found = range_json(range, mechanism);
-  found["mechanism"] = mechanism.name;
-  std::string text = report_text(
-      run_report("range", found, {{"setup", setup_s, {}}, {"op", limit.passed() - setup_s, {}}}, mechanism.messages));
-  for (const std::string& file : a.outputs) write_file(file, text);
-  print_result(
-      a, [&] { return text; }, [&] { print(range, mechanism); });
+  tell(a, {"range",
+           mechanism.name,
+           [&] { return range_json(range, mechanism); },
+           {{"setup", setup_s, {}}, {"op", limit.passed() - setup_s, {}}},
+           [&] { print(range, mechanism); }});
   const bool open = std::any_of(range.parts.begin(), range.parts.end(),
                                 [](const RangePart& part) { return part.status == RangeStatus::kUndecided; });
   return open ? 5 : 0;

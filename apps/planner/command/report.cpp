@@ -59,6 +59,33 @@ void add_path(const ExactPath& path, json& result) {
   result["unrounded"] = path.unrounded;
 }
 
+json passages_json(const FreeSpace& free) {
+  json result = json::array();
+  for (const TightPassage& passage : free.passages()) {
+    json entry{{"dimension", passage.dimension},
+               {"component", passage.component},
+               {"cells", cells_json(free, passage.cells)},
+               {"mouths", cells_json(free, passage.mouths)},
+               {"joins", names_json(free, passage.volumes)}};
+    if (passage.bottleneck) {
+      entry["bottleneck"] = {{"piece", passage.bottleneck->piece}, {"junction", passage.bottleneck->junction}};
+    }
+    result.push_back(std::move(entry));
+  }
+  return result;
+}
+
+json touching_json(const FreeSpace& free) {
+  json result = json::array();
+  for (const TouchingVolumes& touching : free.touching_volumes()) {
+    result.push_back({{"dimension", touching.dimension},
+                      {"component", touching.component},
+                      {"cells", cells_json(free, touching.cells)},
+                      {"joins", names_json(free, touching.volumes)}});
+  }
+  return result;
+}
+
 }  // namespace
 
 json points_json(const std::vector<Rational3>& points) {
@@ -88,33 +115,6 @@ int exit_code(AnswerStatus status) {
   }
 }
 
-json passages_json(const FreeSpace& free) {
-  json result = json::array();
-  for (const TightPassage& passage : free.passages()) {
-    json entry{{"dimension", passage.dimension},
-               {"component", passage.component},
-               {"cells", cells_json(free, passage.cells)},
-               {"mouths", cells_json(free, passage.mouths)},
-               {"joins", names_json(free, passage.volumes)}};
-    if (passage.bottleneck) {
-      entry["bottleneck"] = {{"piece", passage.bottleneck->piece}, {"junction", passage.bottleneck->junction}};
-    }
-    result.push_back(std::move(entry));
-  }
-  return result;
-}
-
-json touching_json(const FreeSpace& free) {
-  json result = json::array();
-  for (const TouchingVolumes& touching : free.touching_volumes()) {
-    result.push_back({{"dimension", touching.dimension},
-                      {"component", touching.component},
-                      {"cells", cells_json(free, touching.cells)},
-                      {"joins", names_json(free, touching.volumes)}});
-  }
-  return result;
-}
-
 json answer_json(const Answer& answer, const Scene& scene) {
   json result{{"status", status_name(answer.status)}};
   if (answer.path) add_path(*answer.path, result);
@@ -130,28 +130,29 @@ json answer_json(const Answer& answer, const Scene& scene) {
   return result;
 }
 
-json free_space_json(const Scene& scene, const FreeSpace& free) {
-  json components = json::array();
-  for (const Component& component : free.components()) {
-    components.push_back(
+json free_space_json(const Scene& scene, const FreeSpace* free) {
+  json result{{"scene", scene.name},   {"motions", kTranslation},
+              {"components", nullptr}, {"tight", nullptr},
+              {"touching", nullptr},   {"contact", scene.contact == ContactRule::kAllow ? "allow" : "forbid"}};
+  if (free == nullptr) return result;
+  result["components"] = json::array();
+  for (const Component& component : free->components()) {
+    result["components"].push_back(
         {{"dimension", component.dimension}, {"bounded", component.bounded}, {"cells", component.cells}});
   }
-  json result{{"scene", scene.name}, {"motions", kTranslation}};
-  result["components"] = std::move(components);
-  result["tight"] = passages_json(free);
-  result["touching"] = touching_json(free);
-  result["contact"] = scene.contact == ContactRule::kAllow ? "allow" : "forbid";
+  result["tight"] = passages_json(*free);
+  result["touching"] = touching_json(*free);
   return result;
 }
 
-Json answer_report(const Answer& answer, const Scene& scene, const FreeSpace& free, const json& more) {
-  json found = free_space_json(scene, free);
-  found.update(answer_json(answer, scene));
-  found.update(more);
-  return run_report("plan", found, report_phases(answer.phases), scene.messages);
+json answer_report(const Answer& answer, const Scene& scene, const FreeSpace* free) {
+  json result = free_space_json(scene, free);
+  result.update(answer_json(answer, scene));
+  return result;
 }
 
 std::string unrounded_text(const std::vector<std::size_t>& waypoints) {
+  if (waypoints.empty()) return "";
   std::string text = "more decimals than --digits, for want of free way-points with fewer:";
   for (const std::size_t i : waypoints) text += ' ' + std::to_string(i);
   return text + '\n';

@@ -22,7 +22,7 @@ int exit_code(AnswerStatus status);
 inline constexpr const char* kTranslation = "translation";
 inline constexpr const char* kTranslationAndTurning = "translation and turning";
 
-/// A line that names way-points which could not be rounded.
+/// A line that names way-points which could not be rounded; nothing if there are none.
 std::string unrounded_text(const std::vector<std::size_t>& waypoints);
 
 /// Way-points with time stamps, a line each: t and the numbers of `row`, which stand under `columns`.
@@ -35,17 +35,13 @@ nlohmann::json double_points_json(const std::vector<Rational3>& points);
 
 /// The keys of one answer: status, path, proof, collision.
 nlohmann::json answer_json(const Answer& answer, const Scene& scene);
-/// Those of the scene and its free space: components, passages, contact.
-nlohmann::json free_space_json(const Scene& scene, const FreeSpace& free);
-/// The report of a question about a scene (see run_report), with `more` members.
-Json answer_report(const Answer& answer, const Scene& scene, const FreeSpace& free, const nlohmann::json& more);
+/// Those of the scene and its free space: components, passages, contact. `free` is null if not all of it is known.
+nlohmann::json free_space_json(const Scene& scene, const FreeSpace* free);
+/// Both.
+nlohmann::json answer_report(const Answer& answer, const Scene& scene, const FreeSpace* free);
 /// The phases of an answer for a report.
 std::vector<ReportPhase> report_phases(const std::map<std::string, double>& seconds);
-/// The tight passages alone.
-nlohmann::json passages_json(const FreeSpace& free);
-/// Where volumes only touch.
-nlohmann::json touching_json(const FreeSpace& free);
-/// Both for people.
+/// Tight passages, and where volumes only touch, for people.
 std::string passages_text(const FreeSpace& free);
 
 }  // namespace nef::planner

@@ -6,20 +6,17 @@
 // proportional to the length of the path.
 #include "apps/planner/command/scene_view.h"
 
-#include "apps/view/glb.h"
-#include "apps/view/page.h"
-#include "nef/io/file_bytes.h"
-
 namespace nef::planner {
 namespace {
 
+constexpr view::Color kRobot{230, 120, 20};
+constexpr view::Color kObstacles{130, 140, 155};
+constexpr view::Color kPath{20, 90, 200};
 constexpr view::Color kFree{120, 190, 230};
 constexpr view::Color kTight{200, 30, 110};
 constexpr const char* kTightName = "tight passages";
 
-Polyhedron at(const Polyhedron& robot, const Rational3& position) {
-  return transform(robot, AffineMap::translate(position));
-}
+view::Point to_double(const Rational3& p) { return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])}; }
 
 // F minus the closure of its interior.
 Polyhedron tight_part(const FreeSpace& free) {
@@ -38,34 +35,6 @@ std::vector<view::Polyline> tight_lines(const FreeSpace& free) {
     }
   }
   return lines;
-}
-
-std::optional<Rational3> first_position(const Answer& answer, const Scene& scene) {
-  return answer.path ? answer.path->points.front() : scene.start;
-}
-
-Polyhedron ends(const Answer& answer, const Scene& scene) {
-  std::vector<Polyhedron> points;
-  if (const auto start = first_position(answer, scene)) points.push_back(make_point(*start));
-  if (answer.path) {
-    points.push_back(make_point(answer.path->points.back()));
-  } else if (scene.goal) {
-    points.push_back(make_point(*scene.goal));
-  }
-  return unite_all(points);
-}
-
-std::vector<ShownSet> parts_of(const Answer& answer, const Scene& scene, const FreeSpace& free) {
-  std::vector<ShownSet> parts;
-  parts.push_back({"robot", at(scene.robot, first_position(answer, scene).value_or(Rational3{})), kRobot});
-  const std::optional<Rational3> goal = answer.path ? answer.path->points.back() : scene.goal;
-  if (goal) parts.push_back({"robot at the goal", at(scene.robot, *goal), kRobot, 0.3});
-  parts.push_back({"obstacles", unite_all(scene.obstacles), kObstacles, 0.35});
-  parts.push_back({kTightName, tight_part(free), kTight});
-  parts.push_back({"free space", free.set(), kFree, 0.3, false});
-  parts.push_back({answer.path ? "path" : "start and goal", ends(answer, scene), kPath});
-  std::erase_if(parts, [](const ShownSet& part) { return part.set.is_empty(); });
-  return parts;
 }
 
 }  // namespace
@@ -90,6 +59,28 @@ std::vector<view::Layer> layers_of(const std::vector<ShownSet>& parts) {
   return layers;
 }
 
+std::vector<view::Layer> scene_layers(const Scene& scene, const std::optional<AffineMap>& start,
+                                      const std::optional<AffineMap>& goal, bool has_path, const FreeSpace* free) {
+  std::vector<ShownSet> parts{{"robot", start ? transform(scene.robot, *start) : scene.robot, kRobot}};
+  if (goal) parts.push_back({"robot at the goal", transform(scene.robot, *goal), kRobot, 0.3});
+  parts.push_back({"obstacles", unite_all(scene.obstacles), kObstacles, 0.35});
+  if (free != nullptr) {
+    parts.push_back({kTightName, tight_part(*free), kTight});
+    parts.push_back({"free space", free->set(), kFree, 0.3, false});
+  }
+  std::vector<Polyhedron> ends;
+  for (const std::optional<AffineMap>& end : {start, goal}) {
+    if (end) ends.push_back(make_point(end->translation));
+  }
+  parts.push_back({has_path ? "path" : "start and goal", unite_all(ends), kPath});
+  std::erase_if(parts, [](const ShownSet& part) { return part.set.is_empty(); });
+  std::vector<view::Layer> layers = layers_of(parts);
+  for (view::Layer& layer : layers) {
+    if (layer.name == kTightName) layer.lines = tight_lines(*free);
+  }
+  return layers;
+}
+
 void move_along(const std::vector<Rational3>& points, const std::vector<double>& lengths, const TurnAt& turn,
                 std::vector<view::Layer>& layers) {
   if (points.size() < 2) return;
@@ -109,43 +100,15 @@ void move_along(const std::vector<Rational3>& points, const std::vector<double>&
   }
 }
 
-std::vector<view::Layer> view_layers(const Answer& answer, const Scene& scene, const FreeSpace& free) {
-  std::vector<view::Layer> layers = layers_of(parts_of(answer, scene, free));
-  for (view::Layer& layer : layers) {
-    if (layer.name == kTightName) layer.lines = tight_lines(free);
-  }
-  if (answer.path) move_along(answer.path->points, lengths_of(*answer.path), {}, layers);
+std::vector<view::Layer> view_layers(const Answer& answer, const Scene& scene, const FreeSpace* free) {
+  const auto placed = [](const std::optional<Rational3>& position) {
+    return position ? std::optional(AffineMap::translate(*position)) : std::nullopt;
+  };
+  if (!answer.path) return scene_layers(scene, placed(scene.start), placed(scene.goal), false, free);
+  const std::vector<Rational3>& points = answer.path->points;
+  std::vector<view::Layer> layers = scene_layers(scene, placed(points.front()), placed(points.back()), true, free);
+  move_along(points, lengths_of(*answer.path), {}, layers);
   return layers;
-}
-
-bool is_view_file(const std::string& file) {
-  const std::string extension = lower_extension(file);
-  return extension == "html" || extension == "glb";
-}
-
-void write_outputs(const Arguments& a, const std::string& title,
-                   const std::function<std::optional<std::string>(const std::string& file)>& text,
-                   const std::function<std::vector<view::Layer>()>& layers) {
-  std::vector<std::string> views;
-  if (!a.page.empty()) views.push_back(a.page);
-  for (const std::string& file : a.outputs) {
-    if (is_view_file(file)) {
-      views.push_back(file);
-    } else if (const std::optional<std::string> bytes = text(file)) {
-      write_file(file, *bytes);
-    }
-  }
-  if (views.empty()) return;
-  const std::vector<view::Layer> shown = layers();
-  view::PageOptions options;
-  options.title = title;
-  for (const std::string& file : views) {
-    if (lower_extension(file) == "glb") {
-      view::write_glb(shown, file);
-    } else {
-      view::write_page(shown, file, options);
-    }
-  }
 }
 
 }  // namespace nef::planner

@@ -1,23 +1,139 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/planner/command/turning_run.h"
+//
+// A turn is written as whole quarters and a half-tangent (exact), a quaternion, and degrees for people. A proof is
+// written with exact breakpoints and vertices, so that `read_turning_proof` restores exactly what the search found; the
+// reader checks the shape of the JSON and leaves the truth to `complaint_about`. The times of the robot's motion count
+// turns by the way of its farthest corner.
+#include "apps/planner/command/runs.h"
 
+#include <cmath>
 #include <iostream>
 
-#include "apps/planner/command/clearance_run.h"
+#include "apps/planner/clearance/timing.h"
+#include "apps/planner/command/findings.h"
 #include "apps/planner/command/ompl_runs.h"
-#include "apps/planner/command/proof_run.h"
 #include "apps/planner/command/report.h"
 #include "apps/planner/command/scene_view.h"
-#include "apps/planner/command/turning_report.h"
-#include "apps/planner/command/turning_view.h"
-#include "apps/program/run_report.h"
+#include "apps/planner/turning/turning_robot.h"
+#include "apps/program/exact_json.h"
+#include "apps/program/json_reader.h"
 #include "nef/base/error.h"
-#include "nef/base/timing/stopwatch.h"
 #include "nef/base/timing/time_limit.h"
 #include "nef/io/file_bytes.h"
+#include "nef/io/number_text.h"
+#include "nef/number/floor.h"
 
 namespace nef::planner {
 namespace {
+
+using nlohmann::json;
+
+// Exactly, and for people.
+json turn_json(const Turn& turn, const TurningAxis& axis) {
+  const Integer quarter = floor_of(turn);
+  json quaternion = json::array();
+  for (const Rational& x : axis.quaternion(turn)) quaternion.push_back(to_string(x));
+  return {{"quarters", quarter.get_si()},
+          {"half_tangent", to_string(Rational(turn - quarter))},
+          {"quaternion", std::move(quaternion)},
+          {"degrees", axis.degrees_of(turn)}};
+}
+
+Turn turn_of(const JsonReader& value) {
+  if (!value.has("quarters") || !value.has("half_tangent")) value.fail("a turn has 'quarters' and 'half_tangent'");
+  return value["quarters"].number() + value["half_tangent"].number();
+}
+
+json axis_json(const Rational3& axis) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (axis[k] == 1 && axis[(k + 1) % 3] == 0 && axis[(k + 2) % 3] == 0) return std::string(1, "xyz"[k]);
+  }
+  return exact_json(axis);
+}
+
+json proof_json(const TurningProof& proof, const TurningAxis& axis) {
+  json result;
+  for (const Turn& turn : proof.breakpoints) result["breakpoints"].push_back(turn_json(turn, axis));
+  for (const TurningProof::Cell& cell : proof.cells) {
+    json inner = json::array();
+    for (const std::vector<Rational3>& piece : cell.inner) inner.push_back(points_json(piece));
+    result["cells"].push_back({{"inner", std::move(inner)}, {"start_side", points_json(cell.start_side)}});
+  }
+  return result;
+}
+
+json turning_json(const TurningAnswer& answer, const Scene& scene, const TurningAxis& axis) {
+  json result{{"scene", scene.name},
+              {"status", status_name(answer.status)},
+              {"motions", kTranslationAndTurning},
+              {"cells", answer.cells},
+              {"cells_looked_at", answer.looked_at},
+              {"axis", axis_json(scene.rotation->axis)},
+              {"contact", scene.contact == ContactRule::kAllow ? "allow" : "forbid"}};
+  for (const Pose& pose : answer.path) {
+    result["path"].push_back({{"position", exact_json(pose.position)},
+                              {"position_double", double_json(pose.position)},
+                              {"turn", turn_json(pose.turn, axis)}});
+  }
+  if (!answer.path.empty()) result["unrounded"] = answer.unrounded;
+  if (answer.proof) result["proof"] = proof_json(*answer.proof, axis);
+  for (const TurnRange& range : answer.open_ranges) {
+    result["undecided"].push_back({turn_json(range.low, axis), turn_json(range.high, axis)});
+  }
+  return result;
+}
+
+std::string turning_text(const TurningAnswer& answer, const TurningAxis& axis) {
+  std::string out;
+  for (const Pose& pose : answer.path) {
+    for (const Rational& x : pose.position) {
+      append_number(out, nearest_double(x));
+      out += ' ';
+    }
+    append_number(out, axis.degrees_of(pose.turn));
+    out += '\n';
+  }
+  return out;
+}
+
+TurningProof read_turning_proof(const std::string& file) {
+  const json value = parse_exact_json(read_file(file), file);
+  const JsonReader report(value, file);
+  if (!report.has("proof")) report.fail("no report with a proof (status infeasible)");
+  const JsonReader root = report["proof"];
+  root.require_keys({"breakpoints", "cells"});
+  TurningProof proof;
+  proof.breakpoints = root["breakpoints"].list(turn_of);
+  proof.cells = root["cells"].list([](const JsonReader& cell) {
+    cell.require_keys({"inner", "start_side"});
+    const auto points = [](const JsonReader& list) { return list.list(&JsonReader::point_of); };
+    const auto piece = [&](const JsonReader& list) {
+      if (list.value().empty()) list.fail("a piece without vertices");
+      return points(list);
+    };
+    return TurningProof::Cell{cell["inner"].list(piece), points(cell["start_side"])};
+  });
+  return proof;
+}
+
+// How long each part of a path is, an angle being the way of the robot's farthest corner.
+std::vector<double> lengths_of(const std::vector<Pose>& path, const Polyhedron& robot, const TurningAxis& axis) {
+  const double reach = reach_of(robot);
+  std::vector<double> lengths;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    const double turned = axis.degrees_of(path[i].turn) - axis.degrees_of(path[i - 1].turn);
+    lengths.push_back(distance(path[i - 1].position, path[i].position) + std::abs(turned) * M_PI / 180 * reach);
+  }
+  return lengths;
+}
+
+// The turn from the first pose on as a unit quaternion w x y z. Angles are those of people, whose sum is not taken
+// modulo a full turn, so that neighbours are near each other.
+std::array<double, 4> quaternion_of(double degrees, const TurningAxis& axis) {
+  const Vector3d direction = to_vector(axis.direction()).normalized();
+  const double half = degrees * M_PI / 360;
+  return {std::cos(half), std::sin(half) * direction[0], std::sin(half) * direction[1], std::sin(half) * direction[2]};
+}
 
 void print(const Arguments& a, const TurningAnswer& answer, const TurningAxis& axis) {
   std::cout << status_name(answer.status);
@@ -29,7 +145,7 @@ void print(const Arguments& a, const TurningAnswer& answer, const TurningAxis& a
     }
   }
   std::cout << '\n';
-  if (!answer.unrounded.empty()) std::cout << unrounded_text(answer.unrounded);
+  std::cout << unrounded_text(answer.unrounded);
   if (a.outputs.empty()) std::cout << turning_text(answer, axis);
 }
 
@@ -42,6 +158,25 @@ int check_proof(const Arguments& a, const Scene& scene) {
 }
 
 }  // namespace
+
+std::vector<view::Layer> turning_layers(const TurningAnswer& answer, const Scene& scene,
+                                        const TurningQuestion& question) {
+  const auto placed = [&](const Pose& pose) {
+    AffineMap map = question.axis.rotation(pose.turn);
+    map.translation = pose.position;
+    return map;
+  };
+  std::vector<view::Layer> layers =
+      scene_layers(scene, placed(question.start), placed(question.goal), !answer.path.empty(), nullptr);
+  std::vector<Rational3> points;
+  for (const Pose& pose : answer.path) points.push_back(pose.position);
+  const auto turn = [&](std::size_t i) {
+    const double first = question.axis.degrees_of(answer.path.front().turn);
+    return quaternion_of(question.axis.degrees_of(answer.path[i].turn) - first, question.axis);
+  };
+  move_along(points, lengths_of(answer.path, scene.robot, question.axis), turn, layers);
+  return layers;
+}
 
 int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& widest) {
   exclude(a, "a scene with a rotation",
@@ -59,17 +194,21 @@ int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& wi
   const TurningQuestion question = question_of(scene);
   const TurningAnswer answer = a.ompl.empty() ? find_turning_path(scene, question, limits, limit.monitor())
                                               : run_turning_ompl(scene, a.ompl, a.time.value_or(kOmplSeconds));
-  nlohmann::json report = turning_json(answer, scene, question.axis);
   std::vector<double> times;
   if (!answer.path.empty() && a.limits.speed > 0)
     times = times_of(lengths_of(answer.path, scene.robot, question.axis), a.limits);
-  if (!times.empty()) report["times_s"] = times;
-  if (!widest.is_null()) report["widest"] = widest;
-  std::string text = report_text(run_report("turning", report, {{"op", limit.passed(), {}}}, scene.messages));
+  const auto report = [&] {
+    nlohmann::json members = turning_json(answer, scene, question.axis);
+    if (!times.empty()) members["times_s"] = times;
+    if (!widest.is_null()) members["widest"] = widest;
+    return members;
+  };
+  const auto for_people = [&] {
+    if (!widest.is_null()) std::cout << widest_text(widest);
+    print(a, answer, question.axis);
+  };
   // The report whatever the answer; other formats hold a path.
-  const auto rendered = [&](const std::string& file) -> std::optional<std::string> {
-    const std::string extension = lower_extension(file);
-    if (extension == "json") return text;
+  const auto text = [&](const std::string& extension) -> std::optional<std::string> {
     if (answer.status != TurningAnswer::Status::kPath) return std::nullopt;
     if (extension != "csv") return turning_text(answer, question.axis);
     return timed_text("x,y,z,degrees", times, [&](std::size_t i) {
@@ -77,13 +216,9 @@ int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& wi
       return std::vector<double>{at[0], at[1], at[2], question.axis.degrees_of(answer.path[i].turn)};
     });
   };
-  write_outputs(a, scene.name, rendered, [&] { return turning_layers(answer, scene, question); });
-  const auto print_answer = [&] {
-    if (!widest.is_null()) std::cout << widest_text(widest);
-    print(a, answer, question.axis);
-  };
-  print_result(
-      a, [&] { return text; }, print_answer);
+  tell(a, {"turning", scene.name, report, {{"op", limit.passed(), {}}}, for_people, text, [&] {
+             return turning_layers(answer, scene, question);
+           }});
   const bool no_answer = !a.ompl.empty() && answer.status == TurningAnswer::Status::kUndecided;
   return no_answer ? 4 : exit_code(answer.status);
 }

@@ -12,7 +12,7 @@
 #include <cmath>
 
 #include "apps/minkowski/minkowski.h"
-#include "apps/planner/scene/reachable_part.h"
+#include "apps/planner/scene/scene.h"
 #include "nef/base/error.h"
 #include "nef/base/monitor.h"
 #include "nef/complex/item_boxes.h"

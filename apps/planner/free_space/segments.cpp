@@ -8,8 +8,10 @@
 
 namespace nef::planner {
 
-CellFilter::CellFilter(const FreeSpace& free) : allowed_(free.cells().size()) {
-  for (CellId cell = 0; cell < allowed_.size(); ++cell) allowed_[cell] = free.is_free(cell);
+CellFilter::CellFilter(const FreeSpace& free, int min_dimension) : allowed_(free.cells().size()) {
+  for (CellId cell = 0; cell < allowed_.size(); ++cell) {
+    allowed_[cell] = free.is_free(cell) && free.local_dimension(cell) >= min_dimension;
+  }
 }
 
 bool segment_allowed(const FreeSpace& free, const CellFilter& filter, const Rational3& a, const Rational3& b) {
@@ -46,46 +48,50 @@ std::optional<Contact> first_contact(const FreeSpace& free, const ExactPoint& a,
   return contact;
 }
 
-std::optional<Rational3> first_blocked_position(const FreeSpace& free, const Rational3& a, const Rational3& b) {
+namespace {
+
+// Calls visit(cell, is_point, middle) for the parts of a closed segment in order, middle() being the exact parameter in
+// the middle of one, until it returns false.
+template <typename Visit>
+void for_each_part(const FreeSpace& free, const Rational3& a, const Rational3& b, const Visit& visit) {
   const ExactPoint pa(a);
   const ExactPoint pb(b);
-  if (a == b) return free.is_free(pa) ? std::nullopt : std::optional<Rational3>(a);
-  std::optional<Rational3> result;
-  if (!free.has_roadmap()) {
-    walk_directly(free, a, b, [&](const DirectPart& part) {
-      if (free.is_free(part.cell)) return true;
-      result = point_between(a, b, (part.begin + part.end) / 2);
-      return false;
+  if (a == b) {
+    visit(free.locate(pa), true, [] { return Rational(0); });
+  } else if (free.has_roadmap()) {
+    const ExactSegment segment(free.tree().planes(), pa, pb);
+    walk_segment(free.tree(), pa, pb, [&](const SegmentPart& part) {
+      return visit(part.cell, part.is_point,
+                   [&]() -> Rational { return (segment.exact(part.begin) + segment.exact(part.end)) / 2; });
     });
-    return result;
+  } else {
+    walk_directly(free, a, b, [&](const DirectPart& part) {
+      return visit(part.cell, part.is_point, [&]() -> Rational { return (part.begin + part.end) / 2; });
+    });
   }
-  const ExactSegment segment(free.tree().planes(), pa, pb);
-  walk_segment(free.tree(), pa, pb, [&](const SegmentPart& part) {
-    if (free.is_free(part.cell)) return true;
-    result = segment.point((segment.exact(part.begin) + segment.exact(part.end)) / 2);
-    return false;
+}
+
+}  // namespace
+
+std::optional<Rational3> first_blocked_position(const FreeSpace& free, const Rational3& a, const Rational3& b) {
+  std::optional<Rational3> result;
+  for_each_part(free, a, b, [&](CellId cell, bool /*is_point*/, const auto& middle) {
+    if (!free.is_free(cell)) result = point_between(a, b, middle());
+    return !result;
   });
   return result;
 }
 
 std::vector<CellOnSegment> cells_along(const FreeSpace& free, const Rational3& a, const Rational3& b) {
   std::vector<CellOnSegment> result;
-  const ExactPoint pa(a);
-  const ExactPoint pb(b);
-  if (a == b) return {{free.locate(pa), true}};
-  const auto add = [&](const auto& part) {
-    if (!result.empty() && result.back().cell == part.cell) {
-      result.back().is_point = result.back().is_point && part.is_point;
+  for_each_part(free, a, b, [&](CellId cell, bool is_point, const auto& /*middle*/) {
+    if (!result.empty() && result.back().cell == cell) {
+      result.back().is_point = result.back().is_point && is_point;
     } else {
-      result.push_back({part.cell, part.is_point});
+      result.push_back({cell, is_point});
     }
     return true;
-  };
-  if (free.has_roadmap()) {
-    walk_segment(free.tree(), pa, pb, add);
-  } else {
-    walk_directly(free, a, b, add);
-  }
+  });
   return result;
 }
 

@@ -14,8 +14,8 @@ namespace nef::planner {
 /// Which cells a path may use: all free ones, or fewer.
 class CellFilter {
  public:
-  /// All free cells.
-  explicit CellFilter(const FreeSpace& free);
+  /// All free cells where free space is locally at least this thick.
+  explicit CellFilter(const FreeSpace& free, int min_dimension = 0);
   void forbid(CellId cell) { allowed_[cell] = false; }
   void allow(CellId cell) { allowed_[cell] = true; }
   [[nodiscard]] bool operator()(CellId cell) const { return cell != kNoCell && allowed_[cell]; }

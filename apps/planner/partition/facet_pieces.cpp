@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/planner/partition/facet_pieces.h"
+#include "apps/planner/partition/convex_piece.h"
 
 #include "nef/base/error.h"
 #include "nef/location/facet_search.h"

@@ -3,8 +3,8 @@
 // Finds the places where zones meet.
 #pragma once
 
-#include "apps/planner/partition/nudges.h"
 #include "apps/planner/partition/roadmap.h"
+#include "apps/planner/partition/space_tree.h"
 #include "nef/base/monitor.h"
 
 namespace nef::planner {

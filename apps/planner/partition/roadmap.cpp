@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "apps/planner/partition/nudges.h"
 #include "apps/planner/partition/portal_maker.h"
 #include "apps/planner/partition/segment_walk.h"
+#include "apps/planner/partition/space_tree.h"
 #include "nef/base/error.h"
 #include "nef/sphere_map/sphere_geometry.h"
 

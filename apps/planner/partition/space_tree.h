@@ -20,6 +20,7 @@
 #include "apps/planner/partition/convex_piece.h"
 #include "apps/planner/partition/exact_point.h"
 #include "nef/base/monitor.h"
+#include "nef/geometry/vectors.h"
 
 namespace nef::planner {
 
@@ -94,5 +95,20 @@ class SpaceTree {
 
   Parts t_;
 };
+
+/// x, y and z.
+inline const std::array<Nudge, 3>& axes() {
+  static const std::array<Nudge, 3> value{Nudge{1, 0, 0}, Nudge{0, 1, 0}, Nudge{0, 0, 1}};
+  return value;
+}
+
+/// Some vector across n, which must not be zero.
+inline Nudge across(const Nudge& n) {
+  for (const Nudge& axis : axes()) {
+    Nudge u = cross(n, axis);
+    if (!is_zero(u)) return u;
+  }
+  return n;
+}
 
 }  // namespace nef::planner

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "apps/planner/partition/facet_pieces.h"
+#include "apps/planner/partition/convex_piece.h"
 #include "apps/planner/partition/space_tree.h"
 #include "nef/base/error.h"
 #include "nef/geometry/predicates.h"

@@ -4,7 +4,7 @@
 // what is free of some pieces. So a shortest way there that keeps away from all other pieces is a shortest way, too.
 // Whether it does is told by projections of the swept robot's and of a piece's corners in doubles, which may err
 // to "near", since another piece does no harm.
-#include "apps/planner/path/nearby_answer.h"
+#include "apps/planner/path/partial_answer.h"
 
 #include <algorithm>
 #include <array>
@@ -137,20 +137,20 @@ class NearSearch {
     for (const Piece& piece : pieces_) scale_ = std::max(scale_, largest_coordinate(piece.corners));
   }
 
-  std::optional<PartialAnswer> run() {
+  std::optional<Answer> run() {
     Stopwatch watch;
     Polyhedron positions =
         scene_.box ? make_box((*scene_.box)[0], (*scene_.box)[1], monitor_) : Polyhedron::everything();
     for (int step = 0; step < kMostSteps; ++step) {
       monitor_.check_interruption();
-      auto free = std::make_shared<const FreeSpace>(positions);
-      std::optional<ExactPath> path;
-      const std::optional<std::vector<std::size_t>> near = near_ways(*free, path);
+      Answer answer;
+      const std::optional<std::vector<std::size_t>> near = near_ways(FreeSpace(positions), answer.path);
       if (!near) return std::nullopt;
       if (near->empty()) {
-        PartialAnswer result{answer_of(*free, *std::move(path)), free};
-        result.answer.phases["query"] = watch.lap();
-        return result;
+        answer.status = Answer::Status::kPath;
+        answer.thinness = Thinness{3, 3};
+        answer.phases["query"] = watch.lap();
+        return answer;
       }
       positions = subtract(positions, forbidden_by(*near), monitor_);
     }
@@ -231,16 +231,6 @@ class NearSearch {
     return apart(piece.normal, extent_along(piece.normal, robot_.corners), extent_along(piece.normal, piece.corners));
   }
 
-  [[nodiscard]] Answer answer_of(const FreeSpace& free, ExactPath path) const {
-    Answer answer;
-    answer.status = Answer::Status::kPath;
-    answer.thinness = Thinness{3, 3};
-    answer.start_component = free.component(free.locate(ExactPoint(*scene_.start)));
-    answer.goal_component = free.component(free.locate(ExactPoint(*scene_.goal)));
-    answer.path = std::move(path);
-    return answer;
-  }
-
   const Scene& scene_;
   const PathOptions& options_;
   Monitor monitor_;
@@ -251,9 +241,9 @@ class NearSearch {
   double scale_;  // the largest coordinate
 };
 
-}  // namespace
-
-bool may_have_nearby_answer(const Scene& scene) {
+// Has the scene start and goal, is the robot a bounded solid, are obstacles bounded and may be touched, and is one of
+// them at least a large mesh that bounds no solid? (For solids a wide answer costs less.)
+bool is_of_surfaces(const Scene& scene) {
   if (scene.rotation || scene.contact != ContactRule::kAllow || !scene.start || !scene.goal) return false;
   if (!scene.robot.is_bounded() || !scene.robot.is_regular()) return false;
   bool any = false;
@@ -266,9 +256,10 @@ bool may_have_nearby_answer(const Scene& scene) {
   return any;
 }
 
-std::optional<PartialAnswer> nearby_answer(const Scene& scene, const PathOptions& options, const Monitor& monitor) {
-  NEF_ASSERT(may_have_nearby_answer(scene));
-  return NearSearch(scene, options, monitor.quiet()).run();
+}  // namespace
+
+std::optional<Answer> nearby_answer(const Scene& scene, const PathOptions& options, const Monitor& monitor) {
+  return is_of_surfaces(scene) ? NearSearch(scene, options, monitor.quiet()).run() : std::nullopt;
 }
 
 }  // namespace nef::planner

@@ -7,7 +7,6 @@
 #include <algorithm>
 
 #include "apps/minkowski/minkowski.h"
-#include "apps/planner/path/nearby_answer.h"
 #include "nef/base/error.h"
 #include "nef/base/monitor.h"
 #include "nef/base/timing/stopwatch.h"
@@ -21,7 +20,13 @@ constexpr std::size_t kMeshFacets = 200;
 
 bool is_bounded_solid(const Polyhedron& set) { return set.is_bounded() && set.is_regular(); }
 
-// The closure of the positions at which the robot is away from all obstacles.
+bool is_of_solids(const Scene& scene) {
+  return !scene.rotation && scene.contact == ContactRule::kAllow && scene.start && scene.goal &&
+         is_bounded_solid(scene.robot) && std::all_of(scene.obstacles.begin(), scene.obstacles.end(), is_bounded_solid);
+}
+
+}  // namespace
+
 Polyhedron interior_positions(const Scene& scene, const Monitor& watching) {
   const minkowski::MinkowskiOptions options = sum_options(watching);
   const Monitor& monitor = options.monitor;
@@ -34,33 +39,23 @@ Polyhedron interior_positions(const Scene& scene, const Monitor& watching) {
   return scene.box ? intersect(free, make_box((*scene.box)[0], (*scene.box)[1], monitor), monitor) : free;
 }
 
-}  // namespace
-
-bool can_have_interior_answer(const Scene& scene) {
-  return !scene.rotation && scene.contact == ContactRule::kAllow && scene.start && scene.goal &&
-         is_bounded_solid(scene.robot) && std::all_of(scene.obstacles.begin(), scene.obstacles.end(), is_bounded_solid);
-}
-
-std::optional<PartialAnswer> partial_answer(const Scene& scene, const PathOptions& options, const Monitor& monitor) {
+std::optional<Answer> partial_answer(const Scene& scene, const PathOptions& options, const Monitor& monitor) {
   const auto is_mesh = [](const Polyhedron& set) { return set.complex().facets.size() >= kMeshFacets; };
   const bool any = is_mesh(scene.robot) || std::any_of(scene.obstacles.begin(), scene.obstacles.end(), is_mesh);
-  if (any && can_have_interior_answer(scene)) return interior_answer(scene, options, monitor);
-  return may_have_nearby_answer(scene) ? nearby_answer(scene, options, monitor) : std::nullopt;
+  return any && is_of_solids(scene) ? interior_answer(scene, options, monitor) : nearby_answer(scene, options, monitor);
 }
 
-std::optional<PartialAnswer> interior_answer(const Scene& scene, const PathOptions& options, const Monitor& monitor) {
-  NEF_ASSERT(can_have_interior_answer(scene));
+std::optional<Answer> interior_answer(const Scene& scene, const PathOptions& options, const Monitor& monitor) {
+  if (!is_of_solids(scene)) return std::nullopt;
   Stopwatch watch;
-  PartialAnswer result;
-  Answer& answer = result.answer;
   Polyhedron positions = interior_positions(scene, monitor);
-  answer.phases["configuration_space"] = watch.lap();
-  result.free = std::make_shared<const FreeSpace>(std::move(positions));
-  answer.phases["cells"] = watch.lap();
-  const FreeSpace& free = *result.free;
+  const double sums_s = watch.lap();
+  const FreeSpace free(std::move(positions));
+  const double cells_s = watch.lap();
   const CellId start = free.locate(ExactPoint(*scene.start));
   const CellId goal = free.locate(ExactPoint(*scene.goal));
   if (!free.is_free(start) || !free.is_free(goal)) return std::nullopt;
+  Answer answer;
   answer.thinness = free.thinness(start, goal);
   if (!answer.thinness || answer.thinness->piece < 3 || answer.thinness->junction < 3) return std::nullopt;
   answer.path = find_path(free, *scene.start, *scene.goal, options, monitor);
@@ -68,8 +63,8 @@ std::optional<PartialAnswer> interior_answer(const Scene& scene, const PathOptio
   answer.status = Answer::Status::kPath;
   answer.start_component = free.component(start);
   answer.goal_component = free.component(goal);
-  answer.phases["query"] = watch.lap();
-  return result;
+  answer.phases = {{"configuration_space", sums_s}, {"cells", cells_s}, {"query", watch.lap()}};
+  return answer;
 }
 
 }  // namespace nef::planner

@@ -11,13 +11,6 @@
 namespace nef::planner {
 namespace {
 
-// Thinner cells than wanted are out, whatever they join.
-void require_dimension(const FreeSpace& free, CellFilter& filter, int dimension) {
-  for (CellId cell = 0; cell < free.cells().size(); ++cell) {
-    if (free.is_free(cell) && free.local_dimension(cell) < dimension) filter.forbid(cell);
-  }
-}
-
 void require_junctions(const FreeSpace& free, CellFilter& filter, int dimension, CellId start, CellId goal) {
   for (CellId cell = 0; cell < free.cells().size(); ++cell) {
     if (cell != start && cell != goal && free.cells().dimension(cell) < dimension) filter.forbid(cell);
@@ -39,15 +32,6 @@ std::optional<Waypoints> first_path(const FreeSpace& free, const CellFilter& fil
   return roadmap_path(free, filter, start, goal, options.clearance, monitor);
 }
 
-// True if the known path, if any, is one from start to goal within the filter.
-bool serves(const Waypoints& known, const Rational3& start, const Rational3& goal, const SegmentCheck& allowed) {
-  if (known.empty() || known.front() != start || known.back() != goal) return false;
-  for (std::size_t i = 0; i + 1 < known.size(); ++i) {
-    if (!allowed(known[i], known[i + 1])) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start, const Rational3& goal,
@@ -56,21 +40,15 @@ std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start
   const CellId goal_cell = free.locate(ExactPoint(goal));
   if (!free.is_free(start_cell) || !free.is_free(goal_cell)) return std::nullopt;
   if (free.component(start_cell) != free.component(goal_cell)) return std::nullopt;
-  CellFilter filter(free);
-  int min_dimension = options.min_dimension;
-  require_dimension(free, filter, min_dimension);
-  if (options.roomy) {
-    const std::optional<Thinness> best = free.thinness(start_cell, goal_cell);
-    min_dimension = std::max(min_dimension, best->piece);
-    require_dimension(free, filter, min_dimension);
-    require_junctions(free, filter, best->junction, start_cell, goal_cell);
-  }
+  const std::optional<Thinness> best = options.roomy ? free.thinness(start_cell, goal_cell) : std::nullopt;
+  const int min_dimension = std::max(options.min_dimension, best ? best->piece : 0);
+  // Thinner cells than wanted are out, whatever they join.
+  CellFilter filter(free, min_dimension);
+  if (best) require_junctions(free, filter, best->junction, start_cell, goal_cell);
   if (!filter(start_cell) || !filter(goal_cell)) return std::nullopt;
-  const SegmentCheck allowed = [&](const Rational3& a, const Rational3& b) {
-    return segment_allowed(free, filter, a, b);
-  };
-  if (serves(options.known, start, goal, allowed)) {
-    std::optional<ExactPath> path = describe_path(free, options.known);
+  const Waypoints& known = options.known;
+  if (!known.empty() && known.front() == start && known.back() == goal && way_allowed(free, filter, known)) {
+    std::optional<ExactPath> path = describe_path(free, known);
     NEF_ASSERT(path.has_value());
     if (options.digits) path->unrounded = unrounded_points(path->points, *options.digits);
     return path;
@@ -80,19 +58,19 @@ std::optional<ExactPath> find_path(const FreeSpace& free, const Rational3& start
   if (!points && options.roomy) {
     PathOptions looser = options;
     looser.roomy = false;
-    const std::optional<Thinness> best = free.thinness(start_cell, goal_cell);
-    looser.min_dimension = std::max(options.min_dimension, best->piece);
+    looser.min_dimension = min_dimension;
     return find_path(free, start, goal, looser, monitor);
   }
   if (!points) return std::nullopt;
-  if (!options.raw) {
-    shortcut(free, filter, *points, options.clearance);
-    if (!options.clearance) tighten(free, filter, *points, options.thorough ? 40 : 4);
-    if (!options.clearance && options.thorough) {
-      take_shorter_way_round(free, filter, *points, kMilestonesForWayRound);
-    }
+  const SegmentCheck allowed = [&](const Rational3& a, const Rational3& b) {
+    return segment_allowed(free, filter, a, b);
+  };
+  if (!options.raw) shortcut(free, filter, *points, options.clearance);
+  if (!options.raw && !options.clearance) {
+    tighten(free, filter, *points, options.thorough ? 40 : 4);
+    if (options.thorough) take_shorter_way_round(free, filter, *points, kMilestonesForWayRound);
+    straighten(allowed, *points);
   }
-  if (!options.raw && !options.clearance) straighten(allowed, *points);
   std::vector<std::size_t> unrounded;
   if (options.digits) unrounded = round_points(allowed, *points, *options.digits);
   std::optional<ExactPath> path = describe_path(free, std::move(*points));

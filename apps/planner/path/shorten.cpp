@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // `tighten` alternates three changes until none helps: the string pulled around the edges in a corner's triangle
-// (triangle_pull.h), way-points slid along their edges, and shortcuts. The best place on an edge has a closed form, by
-// unfolding both sides about the edge. A new place is taken as the simplest rational near the double, halved towards
+// (triangle_pull.cpp), way-points slid along their edges, and shortcuts. The best place on an edge has a closed form,
+// by unfolding both sides about the edge. A new place is taken as the simplest rational near the double, halved towards
 // the old one if the motion is not free. Tests that failed are remembered by their rounded points. In the end
 // way-points move to simpler numbers nearby, where this costs less than doubles can tell.
 #include "apps/planner/path/shorten.h"
@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "apps/planner/free_space/vectors.h"
-#include "apps/planner/path/triangle_pull.h"
 #include "nef/number/simplest_between.h"
 
 namespace nef::planner {
@@ -62,32 +61,42 @@ std::vector<CellId> edges_at(const FreeSpace& free, const Rational3& point) {
   return result;
 }
 
-bool try_replace(const FreeSpace& free, const CellFilter& filter, Waypoints& path, std::size_t i, const Rational3& x) {
+// Moves a way-point if that is allowed and the way over it becomes shorter than `most` times what it is.
+bool try_replace(const FreeSpace& free, const CellFilter& filter, Waypoints& path, std::size_t i, const Rational3& x,
+                 double most) {
   const double before = distance(path[i - 1], path[i]) + distance(path[i], path[i + 1]);
   const double after = distance(path[i - 1], x) + distance(x, path[i + 1]);
-  if (!(after < before - 1e-13 * before)) return false;
+  if (!(after < most * before)) return false;
   if (!segment_allowed(free, filter, path[i - 1], x) || !segment_allowed(free, filter, x, path[i + 1])) return false;
   path[i] = x;
   return true;
 }
 
+// The best place for a way-point on one of the edges that it is on, as a simple point within `slack` of the edge;
+// nothing if it is beyond the ends and `inside`.
+std::optional<Rational3> best_place(const FreeSpace& free, const Waypoints& path, std::size_t i, CellId edge,
+                                    double slack, bool inside) {
+  const std::vector<Rational3> ends = free.vertices(edge);
+  const Vector3d e0 = to_vector(ends[0]);
+  const Vector3d d = to_vector(ends[1]) - e0;
+  double t = best_parameter(e0, d, to_vector(path[i - 1]), to_vector(path[i + 1]));
+  if (!std::isfinite(t) || (inside && (t < 0 || t > 1))) return std::nullopt;
+  t = std::clamp(t, 0.0, 1.0);
+  const Rational low = std::max(Rational(0), Rational(t - slack));
+  const Rational high = std::min(Rational(1), Rational(t + slack));
+  return point_between(ends[0], ends[1], simplest_between(low, high));
+}
+
 bool slide(const FreeSpace& free, const CellFilter& filter, Waypoints& path, std::size_t i) {
   bool changed = false;
   for (const CellId edge : edges_at(free, path[i])) {
-    const std::vector<Rational3> ends = free.vertices(edge);
-    const Vector3d e0 = to_vector(ends[0]);
-    const Vector3d d = to_vector(ends[1]) - e0;
-    const double t = std::clamp(best_parameter(e0, d, to_vector(path[i - 1]), to_vector(path[i + 1])), 0.0, 1.0);
-    if (!std::isfinite(t)) continue;
-    const Rational low = std::max(Rational(0), Rational(t - 1e-7));
-    const Rational high = std::min(Rational(1), Rational(t + 1e-7));
-    Rational3 x = point_between(ends[0], ends[1], simplest_between(low, high));
-    for (int halving = 0; halving < 4 && x != path[i]; ++halving) {
-      if (try_replace(free, filter, path, i, x)) {
+    std::optional<Rational3> x = best_place(free, path, i, edge, 1e-7, false);
+    for (int halving = 0; x && halving < 4 && *x != path[i]; ++halving) {
+      if (try_replace(free, filter, path, i, *x, 1 - 1e-13)) {
         changed = true;
         break;
       }
-      for (std::size_t k = 0; k < 3; ++k) x[k] = (x[k] + path[i][k]) / 2;
+      x = point_between(*x, path[i], Rational(1, 2));
     }
   }
   return changed;
@@ -103,21 +112,8 @@ std::size_t bits(const Rational3& x) {
 // the simplest point nearby if that costs nothing that doubles can see.
 void polish(const FreeSpace& free, const CellFilter& filter, Waypoints& path, std::size_t i) {
   for (const CellId edge : edges_at(free, path[i])) {
-    const std::vector<Rational3> ends = free.vertices(edge);
-    const Vector3d e0 = to_vector(ends[0]);
-    const Vector3d d = to_vector(ends[1]) - e0;
-    const double t = best_parameter(e0, d, to_vector(path[i - 1]), to_vector(path[i + 1]));
-    if (!std::isfinite(t) || t < 0 || t > 1) continue;
-    const Rational low = std::max(Rational(0), Rational(t - 1e-6));
-    const Rational high = std::min(Rational(1), Rational(t + 1e-6));
-    const Rational3 x = point_between(ends[0], ends[1], simplest_between(low, high));
-    if (bits(x) >= bits(path[i])) continue;
-    const double before = distance(path[i - 1], path[i]) + distance(path[i], path[i + 1]);
-    const double after = distance(path[i - 1], x) + distance(x, path[i + 1]);
-    if (after > before * (1 + 1e-12)) continue;
-    if (!segment_allowed(free, filter, path[i - 1], x) || !segment_allowed(free, filter, x, path[i + 1])) continue;
-    path[i] = x;
-    return;
+    const std::optional<Rational3> x = best_place(free, path, i, edge, 1e-6, true);
+    if (x && bits(*x) < bits(path[i]) && try_replace(free, filter, path, i, *x, 1 + 1e-12)) return;
   }
 }
 

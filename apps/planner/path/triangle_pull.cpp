@@ -4,7 +4,7 @@
 // 1). The edges near the triangle (a search in the tree of items) are intersected with it; the upper hull of these
 // points is the taut string. Doubles drop points that are surely below a hull of all; only the rest is computed
 // exactly.
-#include "apps/planner/path/triangle_pull.h"
+#include "apps/planner/path/shorten.h"
 
 #include <algorithm>
 #include <cmath>

@@ -15,7 +15,7 @@
 #include "apps/planner/proofs/arc_time.h"
 #include "apps/planner/proofs/check_parts.h"
 #include "apps/planner/proofs/path_proof.h"
-#include "apps/planner/scene/reachable_part.h"
+#include "apps/planner/scene/scene.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 #include "nef/geometry/vectors.h"

@@ -4,16 +4,13 @@
 // are written, so that nothing in a proof is read over.
 #include "apps/planner/proofs/proof_file.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <initializer_list>
 #include <limits>
 #include <span>
 
 #include "apps/program/exact_json.h"
-#include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
+#include "apps/program/json_reader.h"
 
 namespace nef::planner {
 namespace {
@@ -101,80 +98,35 @@ json barrier_json(const PathProof::Barrier& barrier) {
   return {{"points", std::move(points)}, {"triangles", std::move(triangles)}};
 }
 
-// A value of a proof, and where it stands.
-class Reader {
- public:
-  Reader(const json& value, std::string where) : value_(value), where_(std::move(where)) {}
+using Reader = JsonReader;
 
-  // Requires an object with these keys and no others.
-  void require_keys(std::initializer_list<const char*> keys) const {
-    if (!value_.is_object()) fail("expected an object");
-    for (const char* key : keys) {
-      if (!value_.contains(key)) fail("'" + std::string(key) + "' is missing");
-    }
-    for (const auto& item : value_.items()) {
-      const bool known = std::any_of(keys.begin(), keys.end(), [&](const char* key) { return item.key() == key; });
-      if (!known) fail("unknown key " + in_quotes(item.key()));
-    }
+Rational number_of(const Reader& reader) {
+  const json& value = reader.value();
+  if (!value.is_string()) reader.fail("numbers are strings such as \"1/3\", not " + spelled(value));
+  Rational result = reader.number();
+  if (to_string(result) != value) {
+    reader.fail("numbers are whole or fractions in lowest terms, not " + spelled(value));
   }
+  return result;
+}
 
-  [[nodiscard]] bool has(const char* key) const { return value_.is_object() && value_.contains(key); }
-  [[nodiscard]] bool is_null() const { return value_.is_null(); }
-  [[nodiscard]] Reader operator[](const char* key) const { return {value_[key], where_ + ": " + key}; }
+Rational3 point_of(const Reader& reader) { return reader.exactly<3>(number_of); }
 
-  template <class Make>
-  [[nodiscard]] auto list(Make&& make) const {
-    if (!value_.is_array()) fail("expected a list");
-    std::vector<decltype(make(*this))> result;
-    for (const json& entry : value_) result.push_back(make(Reader(entry, where_)));
-    return result;
+std::uint32_t index_of(const Reader& reader) {
+  const json& value = reader.value();
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max()) {
+    reader.fail("expected the number of an item, not " + spelled(value));
   }
-  template <std::size_t kSize, class Make>
-  [[nodiscard]] auto exactly(Make&& make) const {
-    const auto all = list(make);
-    if (all.size() != kSize) fail("expected a list of " + std::to_string(kSize));
-    std::array<decltype(make(*this)), kSize> result{};
-    std::copy(all.begin(), all.end(), result.begin());
-    return result;
-  }
+  return value.get<std::uint32_t>();
+}
 
-  [[nodiscard]] Rational number() const {
-    if (!value_.is_string()) fail("numbers are strings such as \"1/3\", not " + spelled(value_));
-    Rational result = rational_of(value_, where_);
-    if (to_string(result) != value_) fail("numbers are whole or fractions in lowest terms, not " + spelled(value_));
-    return result;
-  }
-  [[nodiscard]] Rational3 point() const { return exactly<3>(&Reader::number_of); }
-  [[nodiscard]] std::vector<Rational> numbers() const { return list(&Reader::number_of); }
-  [[nodiscard]] ProofPieces pieces() const {
-    return list([](const Reader& piece) { return piece.list([](const Reader& p) { return p.point(); }); });
-  }
-  [[nodiscard]] std::uint32_t index() const {
-    if (!value_.is_number_unsigned() || value_.get<std::uint64_t>() > std::numeric_limits<std::uint32_t>::max()) {
-      fail("expected the number of an item, not " + spelled(value_));
-    }
-    return value_.get<std::uint32_t>();
-  }
-  // The number of one of these words.
-  [[nodiscard]] std::size_t word(std::span<const char* const> words) const {
-    const auto found = std::find_if(words.begin(), words.end(), [&](const char* word) { return value_ == word; });
-    if (found == words.end()) fail("unknown word " + spelled(value_));
-    return static_cast<std::size_t>(found - words.begin());
-  }
-  [[noreturn]] void fail(const std::string& what) const { throw InputError(where_ + ": " + what); }
-
-  static Rational number_of(const Reader& reader) { return reader.number(); }
-  static Rational3 point_of(const Reader& reader) { return reader.point(); }
-  static std::uint32_t index_of(const Reader& reader) { return reader.index(); }
-
- private:
-  const json& value_;
-  std::string where_;
-};
+ProofPieces pieces_of(const Reader& reader) {
+  return reader.list([](const Reader& piece) { return piece.list(point_of); });
+}
 
 RigidPose read_pose(const Reader& pose) {
   pose.require_keys({"position", "quaternion"});
-  return {pose["position"].point(), pose["quaternion"].exactly<4>(&Reader::number_of)};
+  return {point_of(pose["position"]), pose["quaternion"].exactly<4>(number_of)};
 }
 
 PathProof::Claim read_claim(const Reader& claim) {
@@ -182,51 +134,52 @@ PathProof::Claim read_claim(const Reader& claim) {
   PathProof::Claim result;
   result.status = static_cast<Status>(claim["status"].word(kStatusNames));
   result.contact = static_cast<ContactRule>(claim["contact"].word(std::array{"allow", "forbid"}));
-  if (!claim["box"].is_null()) result.box = claim["box"].exactly<2>(&Reader::point_of);
-  result.robot = claim["robot"].pieces();
-  result.obstacles = claim["obstacles"].pieces();
+  if (!claim["box"].value().is_null()) result.box = claim["box"].exactly<2>(point_of);
+  result.robot = pieces_of(claim["robot"]);
+  result.obstacles = pieces_of(claim["obstacles"]);
   result.path = claim["path"].list(read_pose);
   return result;
 }
 
 PathProof::Part read_part(const Reader& part) {
   part.require_keys({"until", "planes"});
-  return {part["until"].number(), part["planes"].list([](const Reader& plane) {
+  return {number_of(part["until"]), part["planes"].list([](const Reader& plane) {
             plane.require_keys({"robot", "obstacle", "normal"});
-            return PathProof::Plane{plane["robot"].index(), plane["obstacle"].index(), plane["normal"].point()};
+            return PathProof::Plane{index_of(plane["robot"]), index_of(plane["obstacle"]), point_of(plane["normal"])};
           })};
 }
 
 CommonPoint read_common(const Reader& point) {
   point.require_keys({"robot", "obstacle"});
-  return {point["robot"].numbers(), point["obstacle"].numbers()};
+  return {point["robot"].list(number_of), point["obstacle"].list(number_of)};
 }
 
 PathProof::Triangle read_triangle(const Reader& triangle) {
   PathProof::Triangle result;
   if (triangle.has("robot")) {
     triangle.require_keys({"corners", "robot", "obstacle", "common"});
-    result.hit = {triangle["robot"].index(), triangle["obstacle"].index(), triangle["common"].exactly<3>(read_common)};
+    result.hit = {index_of(triangle["robot"]), index_of(triangle["obstacle"]),
+                  triangle["common"].exactly<3>(read_common)};
   } else {
     triangle.require_keys({"corners"});
   }
-  result.corners = triangle["corners"].exactly<3>(&Reader::index_of);
+  result.corners = triangle["corners"].exactly<3>(index_of);
   return result;
 }
 
 PathProof::Barrier read_barrier(const Reader& barrier) {
   barrier.require_keys({"points", "triangles"});
-  return {barrier["points"].list(&Reader::point_of), barrier["triangles"].list(read_triangle)};
+  return {barrier["points"].list(point_of), barrier["triangles"].list(read_triangle)};
 }
 
 PathProof::Collision read_collision(const Reader& collision) {
   collision.require_keys({"motion", "parameter", "times", "robot", "obstacle", "common"});
   PathProof::Collision result;
-  result.motion = collision["motion"].index();
-  result.parameter = collision["parameter"].number();
-  result.times = collision["times"].exactly<2>(&Reader::number_of);
-  result.robot = collision["robot"].index();
-  result.obstacle = collision["obstacle"].index();
+  result.motion = index_of(collision["motion"]);
+  result.parameter = number_of(collision["parameter"]);
+  result.times = collision["times"].exactly<2>(number_of);
+  result.robot = index_of(collision["robot"]);
+  result.obstacle = index_of(collision["obstacle"]);
   result.common = collision["common"].exactly<2>(read_common);
   return result;
 }
@@ -254,7 +207,7 @@ PathProof parse_proof(const std::string& text, const std::string& name) {
   const json value = parse_exact_json(text, name);
   const Reader root(value, name);
   root.require_keys({"nef_proof", "claim", "witness"});
-  if (root["nef_proof"].index() != kVersion) root.fail("unknown version of the format; this program reads version 1");
+  if (index_of(root["nef_proof"]) != kVersion) root.fail("unknown version of the format; this program reads version 1");
   PathProof proof;
   proof.claim = read_claim(root["claim"]);
   const Reader witness = root["witness"];
@@ -266,7 +219,7 @@ PathProof parse_proof(const std::string& text, const std::string& name) {
     proof.barrier = read_barrier(witness["barrier"]);
   } else if (witness.has("outside")) {
     witness.require_keys({"outside"});
-    proof.outside = witness["outside"].index();
+    proof.outside = index_of(witness["outside"]);
   } else {
     witness.require_keys({"collision"});
     proof.collision = read_collision(witness["collision"]);

@@ -14,7 +14,7 @@
 #include "apps/planner/rigid/close_pieces.h"
 #include "apps/planner/rigid/motion_parts.h"
 #include "apps/planner/rigid/separation.h"
-#include "apps/planner/scene/reachable_part.h"
+#include "apps/planner/scene/scene.h"
 #include "nef/base/error.h"
 
 namespace nef::planner {
@@ -177,14 +177,6 @@ MotionChecker MotionChecker::of_scene(const Scene& scene, const Monitor& monitor
   }
   return {RigidBody::of_set(closure(scene.robot, monitor), monitor), RigidBody::together(obstacles), scene.contact,
           scene.box};
-}
-
-bool MotionChecker::in_box(const Rational3& position) const {
-  if (!box_) return true;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (position[k] < (*box_)[0][k] || position[k] > (*box_)[1][k]) return false;
-  }
-  return true;
 }
 
 MotionVerdict MotionChecker::check(const RigidPose& pose) const {

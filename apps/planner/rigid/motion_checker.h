@@ -92,7 +92,7 @@ class MotionChecker {
   [[nodiscard]] ContactRule contact() const { return contact_; }
   [[nodiscard]] const std::optional<std::array<Rational3, 2>>& box() const { return box_; }
   /// Whether the box, if there is one, holds a position.
-  [[nodiscard]] bool in_box(const Rational3& position) const;
+  [[nodiscard]] bool in_box(const Rational3& position) const { return is_in_box(position, box_); }
 
  private:
   friend class MotionExamination;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Paths of rigid bodies in files.
+// Paths in files.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,10 +10,13 @@
 
 namespace nef::planner {
 
-/// The poses in a file: lines of seven numbers x y z qx qy qz qw, as OMPL.app and OMPL's printAsMatrix write them, or
-/// JSON whose "path" is a list of {"position": [x, y, z], "quaternion": [w, x, y, z]}. Nothing if the file is of
-/// another kind (three numbers a line, say) or no pose is turned: then it is a path of translations. Throws InputError
-/// "file:line: what" for a quaternion that is zero.
-std::optional<std::vector<RigidPose>> read_poses(const std::string& file);
+/// The poses in a file: lines of numbers x y z, or x y z qx qy qz qw as OMPL.app and OMPL's printAsMatrix write them;
+/// or the "path" of a JSON report, a list of points or of {"position": [x, y, z], "quaternion": [w, x, y, z]}. If none
+/// is turned, it is a path of translations, and all quaternions are (1, 0, 0, 0). Throws InputError "file:line: what"
+/// for another file, a quaternion that is zero, and a file without poses.
+std::vector<RigidPose> read_path(const std::string& file);
+
+/// True if the pose has a rotation.
+bool is_turned(const RigidPose& pose);
 
 }  // namespace nef::planner

@@ -114,82 +114,12 @@ bool enters(const Placed& a, const Placed& b, double distance_error, double volu
   return std::any_of(inside.begin(), inside.end(), [](int sign) { return sign < 0; });
 }
 
-}  // namespace
-
-void place(const RigidBody::Piece& piece, const MotionCell& cell, RoughPolytope& result) {
-  result.clear();
-  for (const Vector3d& p : piece.points) {
-    cell.for_each_image(p, [&](const Vector3d& image) { result.points.push_back(image); });
-  }
-  for (const Vector3d& n : piece.normals) {
-    result.normals.emplace_back(cell.turns[0] * n);
-    if (piece.flat) result.normals.emplace_back(-result.normals.back());
-  }
-  result.reach = piece.reach + cell.position_reach;
-  result.slack = cell.slack;
-}
-
-void place(const RigidBody::Piece& piece, RoughPolytope& result) {
-  result.points = piece.points;
-  result.normals = piece.normals;
-  if (piece.flat) {
-    for (const Vector3d& n : piece.normals) result.normals.emplace_back(-n);
-  }
-  result.reach = piece.reach;
-  result.slack = 0;
-}
-
-void keep_face_normals(const RigidBody::Piece& piece, const MotionCell& cell, RoughPolytope& result) {
-  result.normals.clear();
-  for (const Vector3d& n : piece.normals) result.normals.emplace_back(cell.turns[0] * n);
-}
-
-double plane_error(const RoughPolytope& a, const RoughPolytope& b) {
-  return kPlaneError * (a.reach + b.reach) + MotionCell::kVanished;
-}
-
-Separation plane_between(const RoughPolytope& a, const RoughPolytope& b, Vector3d* normal) {
-  const double reach = a.reach + b.reach;
-  if (!(reach < kLargestReach)) return Separation::kPerhaps;
-  const double error_of_unit = plane_error(a, b);
-  const double slack = a.slack + b.slack;
-  bool perhaps = false;
-  Supports last;
-  const auto separates = [&](const Vector3d& n) {
-    last = supports(a, b, n);
-    const double error = (error_of_unit + slack) * n.lpNorm<1>() + MotionCell::kVanished;
-    perhaps = perhaps || last.gap >= -error;
-    if (last.gap > error && normal != nullptr) *normal = n;
-    return last.gap > error;
-  };
-  for (const Vector3d& n : b.normals) {
-    if (separates(-n)) return Separation::kApart;
-  }
-  for (const Vector3d& n : a.normals) {
-    if (separates(n)) return Separation::kApart;
-  }
-  // The point of the set of differences b - a nearest to the origin so far.
-  Vector3d nearest = b.points.front() - a.points.front();
-  constexpr int kRounds = 24;
-  for (int round = 0; round < kRounds; ++round) {
-    const double length = nearest.norm();
-    if (!(length > kPlaneError * reach)) break;
-    if (separates(nearest / length)) return Separation::kApart;
-    // The nearest point of the segment to the difference that lies least far along it.
-    const Vector3d step = (last.of_b - last.of_a) - nearest;
-    const double square = step.squaredNorm();
-    if (!(square > 0)) break;
-    nearest += std::clamp(-nearest.dot(step) / square, 0.0, 1.0) * step;
-  }
-  return perhaps ? Separation::kPerhaps : Separation::kUnknown;
-}
-
 // A point moves to the other side of the plane that it is farthest beyond, again and again, until it is behind all by a
-// margin m = 2 plane_error, 1024u of the reach R of both. Let n be a rounded normal, within 8u of the true one N in
-// each coordinate (4u, and 4u more of a rotation of rounded entries). With the plane through the foremost rounded
+// margin m, 4 kImageError = 1024u of the reach R of both or more. Let n be a rounded normal, within 8u of the true one
+// N in each coordinate (4u, and 4u more of a rotation of rounded entries). With the plane through the foremost rounded
 // vertex q, N p - N q for a true vertex is at most n p - n q and 24u R for each of p and q, 3 kImageError R for q's
 // error and 6u R for the roundings of the products, p being no farther out than R: below m.
-bool have_inner_point(const PointsAndNormals& a, const PointsAndNormals& b, double reach, double margin) {
+bool have_inner_point(const Placed& a, const Placed& b, double reach, double margin) {
   struct Side {
     const Vector3d* normal;
     double offset;
@@ -197,7 +127,7 @@ bool have_inner_point(const PointsAndNormals& a, const PointsAndNormals& b, doub
   std::vector<Side> sides;
   Vector3d low = Vector3d::Constant(-HUGE_VAL);
   Vector3d high = Vector3d::Constant(HUGE_VAL);
-  for (const PointsAndNormals* body : {&a, &b}) {
+  for (const Placed* body : {&a, &b}) {
     Vector3d least = body->points.front();
     Vector3d most = least;
     for (const Vector3d& q : body->points) {
@@ -231,6 +161,73 @@ bool have_inner_point(const PointsAndNormals& a, const PointsAndNormals& b, doub
   return false;
 }
 
+}  // namespace
+
+void place(const RigidBody::Piece& piece, const MotionCell& cell, RoughPolytope& result) {
+  result.clear();
+  for (const Vector3d& p : piece.points) {
+    cell.for_each_image(p, [&](const Vector3d& image) { result.points.push_back(image); });
+  }
+  for (const Vector3d& n : piece.normals) {
+    result.normals.emplace_back(cell.turns[0] * n);
+    if (piece.flat) result.normals.emplace_back(-result.normals.back());
+  }
+  result.reach = piece.reach + cell.position_reach;
+  result.slack = cell.slack;
+}
+
+void place(const RigidBody::Piece& piece, RoughPolytope& result) {
+  result.points = piece.points;
+  result.normals = piece.normals;
+  if (piece.flat) {
+    for (const Vector3d& n : piece.normals) result.normals.emplace_back(-n);
+  }
+  result.reach = piece.reach;
+  result.slack = 0;
+}
+
+void keep_face_normals(const RigidBody::Piece& piece, const MotionCell& cell, RoughPolytope& result) {
+  result.normals.clear();
+  for (const Vector3d& n : piece.normals) result.normals.emplace_back(cell.turns[0] * n);
+}
+
+Separation plane_between(const RoughPolytope& a, const RoughPolytope& b, Vector3d* normal) {
+  const double reach = a.reach + b.reach;
+  if (!(reach < kLargestReach)) return Separation::kPerhaps;
+  // What the difference of two products n p, p one of either's points, is off by at most, for |n|_1 = 1.
+  const double error_of_unit = kPlaneError * reach + MotionCell::kVanished;
+  const double slack = a.slack + b.slack;
+  bool perhaps = false;
+  Supports last;
+  const auto separates = [&](const Vector3d& n) {
+    last = supports(a, b, n);
+    const double error = (error_of_unit + slack) * n.lpNorm<1>() + MotionCell::kVanished;
+    perhaps = perhaps || last.gap >= -error;
+    if (last.gap > error && normal != nullptr) *normal = n;
+    return last.gap > error;
+  };
+  for (const Vector3d& n : b.normals) {
+    if (separates(-n)) return Separation::kApart;
+  }
+  for (const Vector3d& n : a.normals) {
+    if (separates(n)) return Separation::kApart;
+  }
+  // The point of the set of differences b - a nearest to the origin so far.
+  Vector3d nearest = b.points.front() - a.points.front();
+  constexpr int kRounds = 24;
+  for (int round = 0; round < kRounds; ++round) {
+    const double length = nearest.norm();
+    if (!(length > kPlaneError * reach)) break;
+    if (separates(nearest / length)) return Separation::kApart;
+    // The nearest point of the segment to the difference that lies least far along it.
+    const Vector3d step = (last.of_b - last.of_a) - nearest;
+    const double square = step.squaredNorm();
+    if (!(square > 0)) break;
+    nearest += std::clamp(-nearest.dot(step) / square, 0.0, 1.0) * step;
+  }
+  return perhaps ? Separation::kPerhaps : Separation::kUnknown;
+}
+
 // Errors: a point is off by kImageError reach in each coordinate, and by the slack as a whole. A distance to a plane is
 // off by sqrt(3) times that and by kSideError for the normal. A volume (q - p) x y of vectors no longer than L is off
 // by 3 L^2 times the error of a difference, which is less than 4 kImageError reach + slack; its own roundings are far
@@ -252,7 +249,7 @@ Separation overlap(const RigidBody::Piece& piece_a, const RoughPolytope& a, cons
     return Separation::kOverlapping;
   }
   const bool solid = !piece_a.flat && !piece_b.flat && !a.normals.empty() && !piece_b.normals.empty();
-  if (solid && have_inner_point({a.points, a.normals}, {piece_b.points, piece_b.normals}, reach, distance_error)) {
+  if (solid && have_inner_point(placed_a, placed_b, reach, distance_error)) {
     return Separation::kOverlapping;
   }
   return Separation::kUnknown;

@@ -42,23 +42,9 @@ void place(const RigidBody::Piece& piece, RoughPolytope& result);
 /// it: place() adds the opposite ones of flat pieces.
 void keep_face_normals(const RigidBody::Piece& piece, const MotionCell& cell, RoughPolytope& result);
 
-/// What the difference of two products n p, p one of either's points, is off by at most, for a direction n in doubles
-/// with |n|_1 = 1.
-double plane_error(const RoughPolytope& a, const RoughPolytope& b);
-
 /// Looks for a plane between two polytopes: kApart, kPerhaps or kUnknown. If kApart, `normal`, if it is given, receives
 /// the normal of the plane, which points from a to b.
 Separation plane_between(const RoughPolytope& a, const RoughPolytope& b, Vector3d* normal = nullptr);
-
-/// The points of a polytope and the outward normals of all its faces, of length 1.
-struct PointsAndNormals {
-  const std::vector<Vector3d>& points;
-  const std::vector<Vector3d>& normals;
-};
-
-/// True if doubles find a point that is inside both polytopes, farther than `margin` from each plane of a face; the
-/// margin must be no less than twice plane_error. No coordinate of a point is larger than `reach`.
-bool have_inner_point(const PointsAndNormals& a, const PointsAndNormals& b, double reach, double margin);
 
 /// Do two pieces overlap, the first one moved? Its points are given as `a`, its normals turned with it. kOverlapping
 /// only if they do wherever the first one is moved by `slack` or less; otherwise kUnknown.

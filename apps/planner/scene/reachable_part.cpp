@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/planner/scene/reachable_part.h"
+#include "apps/planner/scene/scene.h"
 
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"

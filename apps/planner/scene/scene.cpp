@@ -5,111 +5,35 @@
 // key.
 #include "apps/planner/scene/scene.h"
 
+#include <array>
 #include <filesystem>
 
 #include "apps/planner/scene/shapes.h"
 #include "apps/program/exact_json.h"
+#include "apps/program/json_reader.h"
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
 #include "nef/io/file_bytes.h"
 
 namespace nef::planner {
 namespace {
 
-using nlohmann::json;
-
-// Shapes of one scene; errors say which key they come from.
-class ShapeReader {
- public:
-  ShapeReader(std::string folder, Messages& messages, const MeshOptions& meshes)
-      : folder_(std::move(folder)), messages_(messages), meshes_(meshes) {}
-
-  Polyhedron shape(const json& value, const std::string& what) {
-    if (value.is_string()) {
-      try {
-        return shape_of_text(value.get<std::string>(), folder_, meshes_, &messages_);
-      } catch (const InputError& error) {
-        throw InputError(what + ": " + error.what());
-      }
-    }
-    throw InputError(what + ": expected a file name or an expression in quotes, not " + in_quotes(spelled(value)));
-  }
-
- private:
-  std::string folder_;
-  Messages& messages_;
-  MeshOptions meshes_;
-};
-
-const std::vector<std::string> kKeys{"robot", "obstacles", "reference", "box",     "start",
-                                     "goal",  "contact",   "name",      "rotation"};
-
-void check_keys(const json& root, const std::string& name) {
-  if (!root.is_object()) throw InputError(name + ": a scene is a JSON object with robot and obstacles");
-  for (const auto& item : root.items()) {
-    if (std::find(kKeys.begin(), kKeys.end(), item.key()) == kKeys.end()) {
-      throw InputError(name + ": unknown key '" + item.key() +
-                       "' (known: robot, obstacles, reference, box, start, goal, contact, rotation)");
-    }
-  }
-  if (root.contains("name") && !root["name"].is_string()) throw InputError(name + ": 'name' must be a string");
-  for (const char* key : {"robot", "obstacles"}) {
-    if (!root.contains(key)) throw InputError(name + ": '" + key + "' is missing");
-  }
-}
-
-void read_obstacles(const json& list, ShapeReader& shapes, const std::string& name, Scene& scene,
-                    const Monitor& monitor) {
-  if (!list.is_array()) throw InputError(name + ": 'obstacles' must be a list");
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    scene.obstacles.push_back(closure(shapes.shape(list[i], name + ": obstacle " + std::to_string(i)), monitor));
-    const std::string spelled = list[i].is_string() ? list[i].get<std::string>() : std::string("a shape");
-    scene.obstacle_names.push_back(spelled);
-  }
-}
-
-Rational3 axis_of(const json& value, const std::string& what) {
-  if (value.is_array()) {
-    Rational3 axis = point_of(value, what + ": axis");
-    if (axis == Rational3{}) throw InputError(what + ": axis must not be the zero vector");
-    return axis;
-  }
-  const std::string name = value.is_string() ? value.get<std::string>() : "";
-  if (name != "x" && name != "y" && name != "z") {
-    throw InputError(what + R"(: axis must be "x", "y", "z" or a direction such as [1, 2, 2])");
-  }
-  Rational3 axis;
-  axis[static_cast<std::size_t>(name[0] - 'x')] = 1;
-  return axis;
-}
-
-AxisRotation rotation_of(const json& value, const std::string& what) {
-  AxisRotation rotation;
-  if (!value.is_object()) throw InputError(what + R"(: expected {"axis": "z", "range": [0, 360]})");
-  for (const auto& item : value.items()) {
-    if (item.key() != "axis" && item.key() != "range") throw InputError(what + ": unknown key '" + item.key() + "'");
-  }
-  if (value.contains("axis")) {
-    rotation.axis = axis_of(value["axis"], what);
-  }
-  if (value.contains("range")) {
-    const json& range = value["range"];
-    if (!range.is_array() || range.size() != 2) throw InputError(what + ": range must be two angles in degrees");
-    rotation.low = rational_of(range[0], what + ": range");
-    rotation.high = rational_of(range[1], what + ": range");
-    constexpr int kMostDegrees = 36000;  // a hundred turns: each of them has cells of its own
-    if (rotation.low >= rotation.high || rotation.high - rotation.low > kMostDegrees) {
-      throw InputError(what + ": range must go up, by no more than " + std::to_string(kMostDegrees) + " degrees");
-    }
-  }
-  return rotation;
+void read_rotation(const JsonReader& value, Scene& scene) {
+  value.require_keys({}, {"axis", "range"});
+  AxisRotation& rotation = scene.rotation.emplace();
+  if (value.has("axis")) rotation.axis = direction_of(value["axis"]);
+  constexpr int kMostDegrees = 36000;  // a hundred turns: each of them has cells of its own
+  if (!value.has("range")) return;
+  const std::array<Rational, 2> range = range_of(value["range"], kMostDegrees);
+  rotation.low = range[0];
+  rotation.high = range[1];
 }
 
 // Start or goal; `angle`, if wanted, receives the fourth number.
-Rational3 end_of(const json& value, Rational* angle, const std::string& what) {
-  if (angle == nullptr || !value.is_array() || value.size() != 4) return point_of(value, what);
-  *angle = rational_of(value[3], what);
-  return point_of(json::array({value[0], value[1], value[2]}), what);
+Rational3 end_of(const JsonReader& value, Rational* angle) {
+  if (angle == nullptr || !value.value().is_array() || value.value().size() != 4) return value.point();
+  const std::array<Rational, 4> numbers = value.exactly<4>(&JsonReader::number_of);
+  *angle = numbers[3];
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
 }  // namespace
@@ -124,40 +48,38 @@ void require_no_rotation(const Scene& scene) {
 Scene parse_scene(const std::string& text, const std::string& folder, const std::string& name,
                   const MeshOptions& meshes) {
   const Monitor& monitor = meshes.monitor;
-  const json root = parse_exact_json(text, name);
-  check_keys(root, name);
+  const nlohmann::json value = parse_exact_json(text, name);
+  const JsonReader root(value, name);
+  root.require_keys({"robot", "obstacles"}, {"reference", "box", "start", "goal", "contact", "rotation", "name"});
+  if (root.has("name") && !value["name"].is_string()) root.fail("'name' must be a string");
   Scene scene;
   scene.name = std::filesystem::path(name).stem().string();
-  ShapeReader shapes(folder, scene.messages, meshes);
-  scene.robot = closure(shapes.shape(root["robot"], name + ": robot"), monitor);
-  if (scene.robot.is_empty()) throw InputError(name + ": the robot is empty");
-  if (!scene.robot.is_bounded()) throw InputError(name + ": the robot must be bounded");
-  if (root.contains("reference")) {
-    Rational3 reference = point_of(root["reference"], name + ": reference");
-    for (Rational& value : reference) value = -value;
+  scene.robot = shape_of(root["robot"], folder, meshes, scene.messages);
+  if (scene.robot.is_empty()) root.fail("the robot is empty");
+  if (!scene.robot.is_bounded()) root.fail("the robot must be bounded");
+  if (root.has("reference")) {
+    Rational3 reference = root["reference"].point();
+    for (Rational& x : reference) x = -x;
     scene.robot = transform(scene.robot, AffineMap::translate(reference), monitor);
   }
-  read_obstacles(root["obstacles"], shapes, name, scene, monitor);
-  if (root.contains("box") && !root["box"].is_null()) {
-    const json& box = root["box"];
-    if (!box.is_array() || box.size() != 2) throw InputError(name + ": 'box' must be [low point, high point]");
-    scene.box = {point_of(box[0], name + ": box"), point_of(box[1], name + ": box")};
+  if (!value["obstacles"].is_array()) root.fail("'obstacles' must be a list");
+  for (const nlohmann::json& obstacle : value["obstacles"]) {
+    const JsonReader at(obstacle, name + ": obstacle " + std::to_string(scene.obstacles.size()));
+    scene.obstacles.push_back(shape_of(at, folder, meshes, scene.messages));
+    scene.obstacle_names.push_back(obstacle.get<std::string>());
+  }
+  if (root.has("box") && !value["box"].is_null()) {
+    if (!value["box"].is_array() || value["box"].size() != 2) root.fail("'box' must be [low point, high point]");
+    scene.box = root["box"].exactly<2>(&JsonReader::point_of);
     for (std::size_t i = 0; i < 3; ++i) {
-      if ((*scene.box)[0][i] > (*scene.box)[1][i])
-        throw InputError(name + ": box: its first point must be the lower one");
+      if ((*scene.box)[0][i] > (*scene.box)[1][i]) root["box"].fail("its first point must be the lower one");
     }
   }
-  if (root.contains("rotation")) scene.rotation = rotation_of(root["rotation"], name + ": rotation");
-  Rational* start_angle = scene.rotation ? &scene.rotation->start : nullptr;
-  Rational* goal_angle = scene.rotation ? &scene.rotation->goal : nullptr;
-  if (root.contains("start")) scene.start = end_of(root["start"], start_angle, name + ": start");
-  if (root.contains("goal")) scene.goal = end_of(root["goal"], goal_angle, name + ": goal");
-  if (root.contains("contact")) {
-    const json& contact = root["contact"];
-    if (contact != "allow" && contact != "forbid") {
-      throw InputError(name + R"(: 'contact' must be "allow" or "forbid", not )" + in_quotes(spelled(contact)));
-    }
-    scene.contact = contact == "allow" ? ContactRule::kAllow : ContactRule::kForbid;
+  if (root.has("rotation")) read_rotation(root["rotation"], scene);
+  if (root.has("start")) scene.start = end_of(root["start"], scene.rotation ? &scene.rotation->start : nullptr);
+  if (root.has("goal")) scene.goal = end_of(root["goal"], scene.rotation ? &scene.rotation->goal : nullptr);
+  if (root.has("contact")) {
+    scene.contact = static_cast<ContactRule>(root["contact"].word(std::array{"allow", "forbid"}));
   }
   return scene;
 }

@@ -88,4 +88,10 @@ Scene parse_scene(const std::string& text, const std::string& folder, const std:
 /// meaning_of (nearly_closed.h) says.
 Scene read_cfg(const std::string& path, const MeshOptions& meshes = scene_meshes());
 
+/// What of an obstacle the robot may reach, however it is turned about its reference point: all of a bounded one, else
+/// what is near the scene's box, cut far enough off that the cuts stay away from the robot. Throws InputError, which
+/// begins with `name`, if the obstacle is unbounded and the scene has no box.
+Polyhedron reachable_part(const Polyhedron& obstacle, const Scene& scene, const Monitor& monitor,
+                          const std::string& name = "an obstacle");
+
 }  // namespace nef::planner

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A mesh is read by the rule for crossings first. If that makes nothing of it, or would leave out what is inside out,
+// it becomes what it means (meaning_of). A string of a scene is a file if there is one of that name, else an
+// expression.
 #include "apps/planner/scene/shapes.h"
 
 #include <algorithm>
@@ -8,9 +12,12 @@
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/morphology.h"
 #include "apps/planner/scene/nearly_closed.h"
+#include "apps/program/exact_json.h"
 #include "apps/program/expression/expression.h"
+#include "apps/program/json_reader.h"
 #include "nef/base/counted.h"
 #include "nef/base/error.h"
+#include "nef/base/in_quotes.h"
 #include "nef/import/resolve_mesh.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/mesh/mesh_formats.h"
@@ -144,6 +151,49 @@ Polyhedron shape_of_text(const std::string& text, const std::string& folder, con
     }
     throw InputError("expression '" + text + "': " + error.what());
   }
+}
+
+Polyhedron shape_of(const JsonReader& value, const std::string& folder, const MeshOptions& options,
+                    Messages& messages) {
+  if (!value.value().is_string()) {
+    value.fail("expected a file name or an expression in quotes, not " + in_quotes(spelled(value.value())));
+  }
+  try {
+    return closure(shape_of_text(value.value().get<std::string>(), folder, options, &messages), options.monitor);
+  } catch (const InputError& error) {
+    value.fail(error.what());
+  }
+}
+
+Polyhedron solid_of(const JsonReader& value, const std::string& folder, const MeshOptions& options,
+                    Messages& messages) {
+  Polyhedron set = shape_of(value, folder, options, messages);
+  if (set.is_empty() || !set.is_bounded() || !set.is_regular()) {
+    value.fail("must be a bounded solid without surfaces, curves or points sticking out");
+  }
+  return set;
+}
+
+Rational3 direction_of(const JsonReader& value) {
+  Rational3 direction;
+  if (value.value().is_array()) {
+    direction = value.point();
+  } else {
+    constexpr std::array kAxes{"x", "y", "z"};
+    const auto axis = std::find(kAxes.begin(), kAxes.end(), value.value());
+    if (axis == kAxes.end()) value.fail(R"(must be "x", "y", "z" or a direction such as [1, 2, 2])");
+    direction[static_cast<std::size_t>(axis - kAxes.begin())] = 1;
+  }
+  if (direction == Rational3{}) value.fail("must not be the zero vector");
+  return direction;
+}
+
+std::array<Rational, 2> range_of(const JsonReader& value, const std::optional<int>& most) {
+  std::array<Rational, 2> range = value.exactly<2>(&JsonReader::number_of);
+  if (range[0] >= range[1] || (most && range[1] - range[0] > *most)) {
+    value.fail("must go up" + (most ? ", by no more than " + std::to_string(*most) + " degrees" : ""));
+  }
+  return range;
 }
 
 }  // namespace nef::planner

@@ -3,10 +3,16 @@
 // Solids and surfaces for scenes, from files and expressions.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 
 #include "nef/construct/construct.h"
 #include "nef/forward.h"
+
+namespace nef {
+class JsonReader;
+}  // namespace nef
 
 namespace nef::planner {
 
@@ -21,6 +27,18 @@ Polyhedron read_shape_file(const std::string& path, const MeshOptions& options, 
 /// What a string in a scene stands for: a file (relative to `folder`) or an expression of `nef eval`.
 Polyhedron shape_of_text(const std::string& text, const std::string& folder, const MeshOptions& options,
                          Messages* messages);
+
+/// What a value of a scene stands for, closed: a string as above. Errors say where it stands.
+Polyhedron shape_of(const JsonReader& value, const std::string& folder, const MeshOptions& options, Messages& messages);
+
+/// The same for what must be a bounded solid.
+Polyhedron solid_of(const JsonReader& value, const std::string& folder, const MeshOptions& options, Messages& messages);
+
+/// A direction that is not zero: "x", "y", "z" or three numbers.
+Rational3 direction_of(const JsonReader& value);
+
+/// Two numbers that go up, by no more than `most` if that is given.
+std::array<Rational, 2> range_of(const JsonReader& value, const std::optional<int>& most = std::nullopt);
 
 /// A mesh file through assimp: all meshes of the scene with their transformations; faces that occur
 /// twice (double-sided models) are kept once, vertices at equal places are one.

@@ -346,18 +346,12 @@ class CorridorSearch {
     const std::array<Rational3, 2> box = box_around(cubes, a, b);
     const FreeSpace part(intersect(free_.set(), make_box(box[0], box[1], monitor_), monitor_));
     if (part.cells().size() > std::max(kSmallCut, free_.cells().size() / 8)) return std::nullopt;
-    CellFilter filter(part);
-    for (CellId cell = 0; cell < part.cells().size(); ++cell) {
-      if (part.is_free(cell) && part.local_dimension(cell) < min_dimension_) filter.forbid(cell);
-    }
+    const CellFilter filter(part, min_dimension_);
     const CellId from = part.locate(ExactPoint(a));
     const CellId to = part.locate(ExactPoint(b));
     if (!filter(from) || !filter(to) || part.component(from) != part.component(to)) return std::nullopt;
     std::optional<Points> points = roadmap_path(part, filter, a, b, false, monitor_);
-    for (std::size_t i = 0; points && i + 1 < points->size(); ++i) {
-      if (!segment_allowed(free_, filter_, (*points)[i], (*points)[i + 1])) return std::nullopt;
-    }
-    return points;
+    return points && way_allowed(free_, filter_, *points) ? points : std::nullopt;
   }
 
   [[nodiscard]] std::array<Rational3, 2> box_around(std::span<const AStar::Node> cubes, const Rational3& a,

@@ -13,7 +13,7 @@
 #include <iterator>
 
 #include "apps/minkowski/minkowski.h"
-#include "apps/planner/scene/reachable_part.h"
+#include "apps/planner/scene/scene.h"
 #include "apps/planner/turning/turning_proof.h"
 #include "nef/base/error.h"
 #include "nef/base/union_find.h"

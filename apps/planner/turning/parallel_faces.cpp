@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/planner/turning/parallel_faces.h"
+#include "apps/planner/turning/turning_cells.h"
 
 #include <algorithm>
 
@@ -12,14 +12,9 @@ namespace {
 
 // Equal for vectors across the axis of one direction, and for those along it.
 Rational3 normalized(const Rational3& v, const TurningAxis& axis) {
-  const Rational3& n = axis.direction();
-  const Rational along = dot(v, n) / axis.square();
-  Rational3 across;
+  Rational3 across = axis.across(v);
   Rational size;
-  for (std::size_t k = 0; k < 3; ++k) {
-    across[k] = v[k] - along * n[k];
-    size = std::max(size, Rational(abs(across[k])));
-  }
+  for (const Rational& x : across) size = std::max(size, Rational(abs(x)));
   if (size == 0) return across;
   for (Rational& x : across) x /= size;
   return across;
@@ -44,7 +39,7 @@ std::set<Rational3> normals_of(const std::vector<Polyhedron>& obstacles, const T
 std::set<Rational3> normals_of(const TurningRobot& robot) {
   std::set<Rational3> result;
   for (const TurningRobot::Piece& piece : robot.pieces()) {
-    for (const TurningRobot::Face& face : piece.faces) result.insert(normalized(face.normal, robot.axis()));
+    for (const HalfSpace& face : piece.faces) result.insert(normalized(face.normal, robot.axis()));
   }
   return result;
 }
@@ -60,7 +55,7 @@ std::set<Turn> turns_of_parallel_faces(const Scene& scene, const TurningRobot& r
       for (const Rational3& to : {m, Rational3{-m[0], -m[1], -m[2]}}) {
         const std::optional<Turn> turn = question.axis.turn_between(n, to);
         if (!turn) break;
-        for (Turn at = *turn + 4 * ceiling_of((question.low - *turn) / 4); at <= question.high; at += 4) {
+        for (Turn at = moved_above(*turn, question.low); at <= question.high; at += 4) {
           turns.insert(at);
         }
       }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/planner/rigid/rigid_motion.h"
 #include "nef/base/error.h"
 #include "nef/geometry/vectors.h"
 #include "nef/number/floor.h"
@@ -28,6 +29,8 @@ Rational scale_of(const Rational3& direction) {
 
 }  // namespace
 
+Turn moved_above(const Turn& turn, const Turn& low) { return turn + 4 * ceiling_of((low - turn) / 4); }
+
 TurningAxis::TurningAxis(const Rational3& direction) {
   const Rational scale = scale_of(direction);
   for (std::size_t k = 0; k < 3; ++k) n_[k] = scale * direction[k];
@@ -46,40 +49,25 @@ TurningAxis::Half TurningAxis::half_of(const Turn& turn) const {
   return half;
 }
 
-AffineMap TurningAxis::rotation(const Turn& turn) const {
-  const auto [w, s] = half_of(turn);
-  const Rational length = w * w + square_ * s * s;
+Rational3 TurningAxis::across(const Rational3& v) const {
+  const Rational along = dot(v, n_) / square_;
+  return {v[0] - along * n_[0], v[1] - along * n_[1], v[2] - along * n_[2]};
+}
+
+AffineMap TurningAxis::between(const Turn& a, const Turn& b) const {
   AffineMap map = AffineMap::identity();
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      map.linear[i][j] = 2 * s * s * n_[i] * n_[j] / length;
-      if (i == j) map.linear[i][j] += (w * w - square_ * s * s) / length;
-    }
-    // The cross product with n.
-    const std::size_t j = (i + 1) % 3;
-    const std::size_t k = (i + 2) % 3;
-    map.linear[i][j] -= 2 * w * s * n_[k] / length;
-    map.linear[i][k] += 2 * w * s * n_[j] / length;
-  }
+  map.linear = rotation_between(quaternion(a), quaternion(b));
   return map;
 }
+
+AffineMap TurningAxis::rotation(const Turn& turn) const { return between(turn, turn); }
 
 std::array<Rational, 4> TurningAxis::quaternion(const Turn& turn) const {
   const auto [w, s] = half_of(turn);
   return {w, s * n_[0], s * n_[1], s * n_[2]};
 }
 
-Rational TurningAxis::half_tangent_between(const Turn& a, const Turn& b) const {
-  const Half from = half_of(a);
-  const Half to = half_of(b);
-  return (from.w * to.s - from.s * to.w) / (from.w * to.w + square_ * from.s * to.s);
-}
-
 std::optional<Turn> TurningAxis::turn_between(const Rational3& from, const Rational3& to) const {
-  const auto across = [this](const Rational3& v) {
-    const Rational along = dot(v, n_) / square_;
-    return Rational3{v[0] - along * n_[0], v[1] - along * n_[1], v[2] - along * n_[2]};
-  };
   const Rational3 a = across(from);
   const Rational3 b = across(to);
   if (is_zero(a) || is_zero(b)) return std::nullopt;

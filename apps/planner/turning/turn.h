@@ -16,6 +16,9 @@ namespace nef::planner {
 /// there, two quarters are a half turn, and the odd one begins a little off 90 degrees (TurningAxis says where).
 using Turn = Rational;
 
+/// The turn by full circles moved to be the least that is no less than `low`.
+Turn moved_above(const Turn& turn, const Turn& low);
+
 /// An axis of rotation through the origin, in a rational direction. With n the direction, scaled, and N = n n, which is
 /// 1 if the direction has a rational length and near 1 otherwise, the rotations with rational entries are those by
 /// angles whose half has the tangent s / w sqrt(N), s and w rational: those of the quaternions w + s n. Turns are these
@@ -31,13 +34,16 @@ class TurningAxis {
   /// Its squared length.
   [[nodiscard]] const Rational& square() const { return square_; }
 
+  /// The part of a vector across the axis.
+  [[nodiscard]] Rational3 across(const Rational3& v) const;
+
   /// The rotation about the axis, counterclockwise seen from where the direction points to.
   [[nodiscard]] AffineMap rotation(const Turn& turn) const;
   /// The quaternion of that rotation, of any length: w, and the multiple of the direction in the other three.
   [[nodiscard]] std::array<Rational, 4> quaternion(const Turn& turn) const;
-  /// The tangent of half the angle from a to b, in multiples of the direction's length. They must be less than a half
-  /// turn apart.
-  [[nodiscard]] Rational half_tangent_between(const Turn& a, const Turn& b) const;
+  /// M(p, q) of both rotations (rigid/rigid_motion.h), less than a half turn apart: it takes a point to where the
+  /// tangents to its arc from a to b at both ends meet.
+  [[nodiscard]] AffineMap between(const Turn& a, const Turn& b) const;
   /// The turn that takes one direction to another one, both seen along the axis, in [0, 4); nothing if it is not
   /// rational, or one of them lies in the axis.
   [[nodiscard]] std::optional<Turn> turn_between(const Rational3& from, const Rational3& to) const;

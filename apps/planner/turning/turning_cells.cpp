@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "apps/planner/scene/reachable_part.h"
+#include "apps/planner/scene/scene.h"
 #include "nef/base/error.h"
 
 namespace nef::planner {

@@ -17,7 +17,7 @@ TurningQuestion question_of(const Scene& scene) {
   const auto in_range = [&](const Rational& degrees) {
     Turn turn = question.axis.turn_of_degrees(degrees);
     if (turn >= question.low && turn <= question.high) return turn;
-    const Turn moved = turn + 4 * ceiling_of((question.low - turn) / 4);
+    const Turn moved = moved_above(turn, question.low);
     return moved <= question.high ? moved : turn;
   };
   question.start = {*scene.start, in_range(r.start)};

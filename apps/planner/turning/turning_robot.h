@@ -5,14 +5,15 @@
 
 #include <vector>
 
+#include "apps/planner/free_space/hulls_apart.h"
 #include "apps/planner/turning/turn.h"
 #include "nef/base/monitor.h"
 #include "nef/mesh/mesh.h"
 
 namespace nef::planner {
 
-/// Throws InputError unless a robot is a bounded solid, as one that turns must be.
-void require_turning_robot(const Polyhedron& robot);
+/// The robot itself; throws InputError unless it is a bounded solid, as one that turns must be.
+const Polyhedron& turning_robot(const Polyhedron& robot);
 
 /// How far a robot's farthest point is from its reference point at most, in doubles: that of a corner of the box around
 /// it.
@@ -21,15 +22,10 @@ double reach_of(const Polyhedron& robot);
 /// A solid robot that turns about an axis through its reference point, the origin.
 class TurningRobot {
  public:
-  /// A face of a convex piece: normal * x <= offset, the normal outward, of any length.
-  struct Face {
-    Rational3 normal;
-    Rational offset;
-  };
   /// A convex piece.
   struct Piece {
     Mesh mesh;
-    std::vector<Face> faces;
+    std::vector<HalfSpace> faces;
   };
 
   /// Cuts the robot into convex pieces. Throws as require_turning_robot.
@@ -38,11 +34,6 @@ class TurningRobot {
   [[nodiscard]] const TurningAxis& axis() const { return axis_; }
   /// Without common interior; their union is the robot.
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
-  /// The robot turned.
-  [[nodiscard]] Polyhedron at(const Turn& turn, const Monitor& monitor = {}) const {
-    return transform(robot_, axis_.rotation(turn), monitor);
-  }
-
   /// The convex pieces of the robot turned.
   [[nodiscard]] std::vector<Mesh> pieces_at(const Turn& turn) const;
 
@@ -50,19 +41,15 @@ class TurningRobot {
   /// piece of the robot the hull of its vertices at both ends and, for each vertex, the meeting point of the tangents
   /// to its arc there.
   [[nodiscard]] std::vector<Mesh> outer_pieces(const Turn& a, const Turn& b, const Monitor& monitor = {}) const;
-  /// The union of these.
-  [[nodiscard]] Polyhedron outer(const Turn& a, const Turn& b, const Monitor& monitor = {}) const;
 
   /// Lies in the robot at every angle from a to b: for each piece that leaves something, what its turned copies at both
-  /// ends and, for each face n x <= c, the half-space of the chord have in common. With h the part of n across the
-  /// axis, m the part along it and d = b - a the latter is (h_a + h_b + (1 + cos d) m) x <= (1 + cos d) c: where h_t x
-  /// has its maximum over t inside the range, (h_a + h_b) x is at least 1 + cos d times that.
+  /// ends and, for each face n x <= c, the half-space M n x <= c have in common, M being that of TurningAxis::between.
+  /// With h the part of n across the axis, m the part along it and d = b - a the latter is (h_a + h_b + (1 + cos d) m)
+  /// x <= (1 + cos d) c: where h_t x has its maximum over t inside the range, (h_a + h_b) x is at least 1 + cos d times
+  /// that.
   [[nodiscard]] std::vector<Mesh> inner_pieces(const Turn& a, const Turn& b) const;
-  /// The union of these. May be empty.
-  [[nodiscard]] Polyhedron inner(const Turn& a, const Turn& b, const Monitor& monitor = {}) const;
 
  private:
-  Polyhedron robot_;
   TurningAxis axis_;
   std::vector<Piece> pieces_;
 };

@@ -14,7 +14,6 @@
 #include "apps/planner/free_space/collision.h"
 #include "apps/planner/path/path.h"
 #include "apps/planner/path/simple_points.h"
-#include "apps/planner/turning/parallel_faces.h"
 #include "apps/planner/turning/turning_cells.h"
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
@@ -310,7 +309,7 @@ class TurningSearch {
 
 // The answer that start or goal is not free, which needs no search.
 std::optional<TurningAnswer> invalid_end(const Scene& scene, const TurningQuestion& question, const Monitor& monitor) {
-  require_turning_robot(scene.robot);
+  turning_robot(scene.robot);
   for (const auto& [pose, status] : {std::pair(&question.start, TurningAnswer::Status::kInvalidStart),
                                      std::pair(&question.goal, TurningAnswer::Status::kInvalidGoal)}) {
     Scene there = scene;

@@ -46,7 +46,7 @@ ob::PlannerStatus TurningPlanner::solve(const ob::PlannerTerminationCondition& p
   warn_of_ignored_objective(*pdef_, name_);
   const auto& space = *static_cast<const TurningSpace*>(si_->getStateSpace().get());
   const auto into_range = [&](Pose pose) {
-    pose.turn += 4 * ceiling_of((question_.low - pose.turn) / 4);
+    pose.turn = moved_above(pose.turn, question_.low);
     return pose;
   };
   const ob::State* start = pis_.nextStart();

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/planner/turning/turning_robot.h"
+
 namespace nef::planner {
 
 namespace ob = ompl::base;

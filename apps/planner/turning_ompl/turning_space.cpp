@@ -14,7 +14,7 @@ namespace ob = ompl::base;
 namespace {
 
 // Where OMPL has its angles: [-2, 2).
-Turn reduced(const Turn& turn) { return turn + 4 * ceiling_of((-2 - turn) / 4); }
+Turn reduced(const Turn& turn) { return moved_above(turn, -2); }
 
 double radians_of(const Turn& turn, const TurningAxis& axis) { return axis.degrees_of(turn) * M_PI / 180; }
 

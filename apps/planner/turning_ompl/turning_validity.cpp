@@ -21,9 +21,6 @@ bool is_finite_pose(const ob::State* state) {
          std::isfinite(compound->as<TurnSpace::StateType>(1)->value);
 }
 
-// The turn by full turns moved to be the least that is no less than the low end.
-Turn moved_from(const Turn& turn, const Turn& low) { return turn + 4 * ceiling_of((low - turn) / 4); }
-
 }  // namespace
 
 TurningValidityChecker::TurningValidityChecker(const ob::SpaceInformationPtr& si,
@@ -34,7 +31,7 @@ TurningValidityChecker::TurningValidityChecker(const ob::SpaceInformationPtr& si
 bool TurningValidityChecker::isValid(const ob::State* state) const {
   if (!is_finite_pose(state)) return false;
   const Pose pose = space_of(*si_).pose(state);
-  return moved_from(pose.turn, low_) <= high_ && collision_->is_free(pose);
+  return moved_above(pose.turn, low_) <= high_ && collision_->is_free(pose);
 }
 
 TurningMotionValidator::TurningMotionValidator(const ob::SpaceInformationPtr& si,
@@ -56,7 +53,7 @@ bool TurningMotionValidator::isFree(const ob::State* s1, const ob::State* s2) co
   if (from.turn - to.turn > 2) to.turn += 4;
   if (abs(to.turn - from.turn) == 2) return false;  // which way round is not said
   if (high_ - low_ < 4) {
-    const Turn moved = moved_from(from.turn, low_) - from.turn;
+    const Turn moved = moved_above(from.turn, low_) - from.turn;
     from.turn += moved;
     to.turn += moved;
     if (from.turn > high_ || to.turn < low_ || to.turn > high_) return false;

@@ -4,7 +4,7 @@
 // classes in Python; so scenes, problems and proofs are bound here with as little as that package needs.
 #include <pybind11/stl.h>
 
-#include "apps/planner/clearance/keep_clear.h"
+#include "apps/planner/clearance/widest.h"
 #include "apps/planner/path/question.h"
 #include "apps/planner/rigid/certified_path.h"
 #include "apps/planner/rigid/pose_file.h"
@@ -172,11 +172,10 @@ py::object collision_of(const plan::CertifiedPath& path) {
 
 // The poses in a file (planner --path); None if no pose is turned.
 py::object read_poses(const std::string& path) {
-  const std::optional<std::vector<plan::RigidPose>> poses =
-      call(kSmallCall, [path](const Monitor&) { return plan::read_poses(path); });
-  if (!poses) return py::none();
+  const std::vector<plan::RigidPose> poses = call(kSmallCall, [path](const Monitor&) { return plan::read_path(path); });
+  if (std::none_of(poses.begin(), poses.end(), plan::is_turned)) return py::none();
   py::list result;
-  for (const plan::RigidPose& pose : *poses) result.append(told(pose));
+  for (const plan::RigidPose& pose : poses) result.append(told(pose));
   return result;
 }
 

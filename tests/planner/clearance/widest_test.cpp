@@ -4,7 +4,6 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "apps/planner/clearance/keep_clear.h"
 #include "apps/planner/clearance/timing.h"
 #include "apps/planner/clearance/widest.h"
 #include "apps/planner/path/path.h"

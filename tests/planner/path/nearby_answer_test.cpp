@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Paths past surfaces, of which only the faces near the path are asked about: against the free space of all of them.
-#include "apps/planner/path/nearby_answer.h"
+#include "apps/planner/path/partial_answer.h"
 
 #include <catch2/catch.hpp>
 #include <functional>

@@ -38,15 +38,15 @@ TEST_CASE("the free space of an interior answer is the closure of the inside of 
   Scene scene = mushroom_scene();
   for (const bool boxed : {false, true}) {
     if (boxed) scene.box = {Rational3{-3, -2, -1}, Rational3{3, 2, 3}};
-    const std::optional<PartialAnswer> part = partial_answer(scene, {});
+    const std::optional<Answer> part = partial_answer(scene, {});
     REQUIRE(part.has_value());
     const Problem problem(scene);
-    CHECK(equal(part->free->set(), regularize(problem.free_space().set())));
-    CHECK(independent_complaint(scene, problem.free_space().set(), *part->answer.path, !boxed) == "");
-    CHECK(part->answer.path->thinness.piece == 3);
-    CHECK(part->answer.thinness->junction == 3);
-    CHECK(part->answer.path->points.front() == *scene.start);
-    CHECK(part->answer.path->points.back() == *scene.goal);
+    CHECK(equal(interior_positions(scene), regularize(problem.free_space().set())));
+    CHECK(independent_complaint(scene, problem.free_space().set(), *part->path, !boxed) == "");
+    CHECK(part->path->thinness.piece == 3);
+    CHECK(part->thinness->junction == 3);
+    CHECK(part->path->points.front() == *scene.start);
+    CHECK(part->path->points.back() == *scene.goal);
   }
 }
 

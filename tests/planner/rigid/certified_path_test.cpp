@@ -56,18 +56,24 @@ TEST_CASE("A path with rotations is certified motion by motion", "[rigid]") {
 
 TEST_CASE("Poses are read from seven columns and from JSON", "[rigid]") {
   const nef::test::TemporaryFolder folder;
-  const auto lines = read_poses(folder.write("a.path", "0 0 0 0 0 0 1 \n1 2.5 3 0 0 1/2 0.5 \n\n"));
-  REQUIRE(lines);
-  REQUIRE(lines->size() == 2);
-  CHECK((*lines)[1].position == Rational3{1, ratio(5, 2), 3});
-  CHECK((*lines)[1].quaternion == Quaternion{ratio(1, 2), 0, 0, ratio(1, 2)});
-  CHECK_FALSE(read_poses(folder.write("b.path", "0 0 0 0 0 0 1\n1 2 3 0 0 0 1\n")));
-  CHECK_FALSE(read_poses(folder.write("c.path", "0 0 0\n1 2 3\n")));
+  const auto any_turned = [](const std::vector<RigidPose>& path) {
+    return std::any_of(path.begin(), path.end(), is_turned);
+  };
+  const auto lines = read_path(folder.write("a.path", "0 0 0 0 0 0 1 \n1 2.5 3 0 0 1/2 0.5 \n\n"));
+  REQUIRE(lines.size() == 2);
+  CHECK(any_turned(lines));
+  CHECK(lines[1].position == Rational3{1, ratio(5, 2), 3});
+  CHECK(lines[1].quaternion == Quaternion{ratio(1, 2), 0, 0, ratio(1, 2)});
+  const auto still = read_path(folder.write("b.path", "0 0 0 0 0 0 2\n1 2 3 0 0 0 1\n"));
+  CHECK_FALSE(any_turned(still));
+  CHECK(still[0].quaternion == Quaternion{1, 0, 0, 0});
+  CHECK_FALSE(any_turned(read_path(folder.write("c.path", "0 0 0\n1 2 3\n"))));
   const auto json =
-      read_poses(folder.write("d.json", R"J({"path": [{"position": [0, "1/3", 0.5], "quaternion": [1, 1, 0, 0]}]})J"));
-  REQUIRE(json);
-  CHECK((*json)[0].position == Rational3{0, ratio(1, 3), ratio(1, 2)});
-  CHECK_THROWS_WITH(read_poses(folder.write("e.path", "0 0 0 0 0 1 1\n0 0 0 0 0 0 0\n")),
+      read_path(folder.write("d.json", R"J({"path": [{"position": [0, "1/3", 0.5], "quaternion": [1, 1, 0, 0]}]})J"));
+  CHECK(any_turned(json));
+  CHECK(json[0].position == Rational3{0, ratio(1, 3), ratio(1, 2)});
+  CHECK(read_path(folder.write("f.json", R"J({"path": [[0, "1/3", 0.5]]})J"))[0].position == json[0].position);
+  CHECK_THROWS_WITH(read_path(folder.write("e.path", "0 0 0 0 0 1 1\n0 0 0 0 0 0 0\n")),
                     Catch::Contains("e.path:2") && Catch::Contains("zero"));
 }
 

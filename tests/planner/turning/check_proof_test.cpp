@@ -75,7 +75,7 @@ TEST_CASE("proofs about robots that are not convex, forbidden contact, tilted ax
                                    "rotation": {"axis": )J" +
                                    axis + R"J(}, "contact": ")J" + contact + R"J("})J");
       const TurningQuestion question = question_of(scene);
-      const TurningAnswer answer = find_turning_path(scene, question, {.max_cells = 60, .stop = {}});
+      const TurningAnswer answer = find_turning_path(scene, question, {.max_cells = 60});
       REQUIRE(answer.status == TurningAnswer::Status::kInfeasible);
       CHECK(complaint_about(*answer.proof, scene, question).value_or("it holds") == "it holds");
     }

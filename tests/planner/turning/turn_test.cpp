@@ -45,8 +45,14 @@ TEST_CASE("turns about an axis: rational rotations by the angles that they say, 
     CHECK(axis.rotation(4)(across) == across);
     const Turn a = axis.turn_of_degrees(80);
     const Turn b = axis.turn_of_degrees(105);
-    CHECK(nearest_double(axis.half_tangent_between(a, b)) * std::sqrt(nearest_double(axis.square())) ==
-          Approx(std::tan(12.5 * M_PI / 180)));
+    // Where the tangents at both ends of an arc meet.
+    const Rational3 corner = axis.between(a, b)(across);
+    for (const Turn& end : {a, b}) {
+      const Rational3 arm = axis.rotation(end)(across);
+      const Rational3 tangent{corner[0] - arm[0], corner[1] - arm[1], corner[2] - arm[2]};
+      CHECK(dot(tangent, arm) == 0);
+      CHECK(std::sqrt(nearest_double(dot(tangent, tangent) / dot(arm, arm))) == Approx(std::tan(12.5 * M_PI / 180)));
+    }
     for (const int degrees : {0, 17, 100, 180, 181, 300}) {
       const Turn turn = axis.turn_of_degrees(degrees);
       const Rational3 tilted = {across[0] + direction[0], across[1] + direction[1], across[2] + direction[2]};
@@ -59,7 +65,7 @@ TEST_CASE("turns about an axis: rational rotations by the angles that they say, 
   CHECK(z.turn_of_degrees(-90) == -1);
   CHECK(z.turn_between({1, 0, 0}, {-3, 4, 0}) == Turn(1) + ratio(1, 3));
   CHECK_FALSE(z.turn_between({1, 0, 0}, {1, 1, 0}).has_value());
-  CHECK(z.half_tangent_between(ratio(5, 4), 2) == ratio(3, 5));
+  CHECK(z.between(ratio(5, 4), 2)({-1, 0, 0}) == Rational3{1, ratio(-3, 5), 0});
   CHECK_THROWS_AS(TurningAxis({0, 0, 0}), InputError);
 }
 

@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
+#include "apps/planner/command/runs.h"
 #include "apps/planner/command/scene_view.h"
-#include "apps/planner/command/turning_view.h"
 #include "apps/planner/turning/turning_search.h"
 #include "apps/program/exact_json.h"
 #include "apps/view/glb.h"

@@ -26,7 +26,6 @@ void check_path(const Scene& scene, const TurningQuestion& question, const Turni
   REQUIRE(answer.path.size() > 0);
   CHECK(answer.path.front().position == question.start.position);
   CHECK(answer.path.back().position == question.goal.position);
-  const TurningRobot robot(scene.robot, question.axis);
   CHECK(answer.path.front().turn == question.start.turn);
   const Rational full_turns = (answer.path.back().turn - question.goal.turn) / 4;
   CHECK(full_turns.get_den() == 1);
@@ -40,7 +39,9 @@ void check_path(const Scene& scene, const TurningQuestion& question, const Turni
       const Rational t = ratio(k, 3);
       Rational3 x = from.position;
       for (std::size_t c = 0; c < 3; ++c) x[c] += t * (to.position[c] - from.position[c]);
-      const Polyhedron body = transform(robot.at(from.turn + t * (to.turn - from.turn)), AffineMap::translate(x));
+      const Polyhedron body =
+          transform(transform(scene.robot, question.axis.rotation(from.turn + t * (to.turn - from.turn))),
+                    AffineMap::translate(x));
       CHECK(intersect(interior(body), obstacles).is_empty());
       if (scene.box) CHECK(contains(make_box((*scene.box)[0], (*scene.box)[1]), x));
     }
@@ -149,7 +150,7 @@ TEST_CASE("random boxes in the plane against a fine grid of poses") {
     TurningQuestion question;
     question.start = {{-1, -1, 0}, 0};
     question.goal = {{ratio(19, 2), ratio(19, 2), 0}, 1};
-    const TurningAnswer answer = find_turning_path(scene, question, {.max_cells = 400, .stop = {}});
+    const TurningAnswer answer = find_turning_path(scene, question, {.max_cells = 400});
     if (answer.status == TurningAnswer::Status::kPath) {
       ++paths;
       check_path(scene, question, answer);
@@ -160,7 +161,6 @@ TEST_CASE("random boxes in the plane against a fine grid of poses") {
     }
     if (answer.status == TurningAnswer::Status::kInfeasible || answer.status == TurningAnswer::Status::kPath) {
       // Is the goal reached by steps of 1/4 and 1/16 of a quarter?
-      const TurningRobot robot(scene.robot, question.axis);
       constexpr int kSteps = 49;
       constexpr int kTurns = 64;  // the full circle
       std::vector<char> free(std::size_t{kSteps} * kSteps * kTurns, 0);
@@ -171,7 +171,7 @@ TEST_CASE("random boxes in the plane against a fine grid of poses") {
       for (int t = 0; t < kTurns; ++t) {
         Scene slice = scene;
         slice.rotation.reset();
-        slice.robot = robot.at(ratio(t, 16));
+        slice.robot = transform(scene.robot, question.axis.rotation(ratio(t, 16)));
         const FreeSpace space(free_positions(slice));
         for (int i = 0; i < kSteps; ++i) {
           for (int k = 0; k < kSteps; ++k) {

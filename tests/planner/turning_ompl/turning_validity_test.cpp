@@ -42,12 +42,11 @@ TEST_CASE("poses and motions among random boxes are judged as free space says") 
       const Scene scene = random_scene(random, axis, contact);
       const TurningAxis about = question_of(scene).axis;
       const TurningCollision collision(scene, about);
-      const TurningRobot robot(scene.robot, about);
       for (int i = 0; i < 3; ++i) {
         const Turn turn = ratio(static_cast<long>(random() % 16), 4);
         Scene slice = scene;
         slice.rotation.reset();
-        slice.robot = robot.at(turn);
+        slice.robot = transform(scene.robot, about.rotation(turn));
         const FreeSpace free(free_positions(slice));
         for (int k = 0; k < 30; ++k) {
           const auto some = [&]() -> Rational { return Rational(static_cast<long>(random() % 25) - 12) / 4; };
@@ -78,7 +77,6 @@ TEST_CASE("a motion that turns is called free only if it is, and is if there is 
   const Scene scene = random_scene(random, R"("z")", ContactRule::kAllow);
   const TurningAxis axis = question_of(scene).axis;
   const TurningCollision collision(scene, axis);
-  const TurningRobot robot(scene.robot, axis);
   const Polyhedron obstacles = unite_all(scene.obstacles);
   for (int i = 0; i < 120; ++i) {
     const auto some = [&]() -> Rational { return Rational(static_cast<long>(random() % 25) - 12) / 4; };

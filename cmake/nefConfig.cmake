@@ -7,7 +7,7 @@
 # Each of these components gives the target nef::COMPONENT, too, and looks for what that needs:
 #   view         pages, pictures, GLB files    libpng, zlib
 #   planner      the translational planner     OMPL and assimp (their places are recorded), Eigen, Boost, threads
-#   visual_hull  hulls of silhouettes          OpenCV, Eigen, fmt, libpng
+#   visual_hull  hulls of silhouettes          OpenCV, Eigen, fmt, libpng, zlib
 include(CMakeFindDependencyMacro)
 find_dependency(TBB)
 include(${CMAKE_CURRENT_LIST_DIR}/nef-targets.cmake)
@@ -23,10 +23,12 @@ foreach(component IN LISTS nef_FIND_COMPONENTS)
       find_dependency(Boost)
       find_dependency(Threads)
     elseif(component STREQUAL "visual_hull")
-      find_dependency(OpenCV COMPONENTS core imgproc calib3d)
+      find_dependency(OpenCV COMPONENTS core imgproc calib3d aruco)
       find_dependency(Eigen3)
       find_dependency(fmt)
       find_dependency(PNG)
+      find_dependency(ZLIB)
+      include(${CMAKE_CURRENT_LIST_DIR}/nef-view-targets.cmake)
     endif()
     include(${nef_targets_file})
     set(nef_${component}_FOUND TRUE)

@@ -14,6 +14,7 @@ struct Image {
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::vector<std::uint8_t> rgb;
+  std::uint32_t pixels_per_metre = 0;  ///< of a picture that is to be printed to scale; 0: it says nothing
 };
 
 /// The bytes of a PNG file.

@@ -8,6 +8,7 @@
 // point in common.
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <mutex>
 
@@ -25,7 +26,10 @@
 #include "nef/base/threads/parallel.h"
 #include "nef/base/timing/phase_timer.h"
 #include "nef/construct/construct.h"
+#include "nef/parts/by_volume.h"
+#include "nef/parts/split.h"
 #include "nef/polyhedron.h"
+#include "nef/query/measures/approximate_volume.h"
 
 namespace visual_hull {
 namespace {
@@ -83,6 +87,29 @@ void check_size_of(const cv::Mat& mask, const View& view, const std::string& wha
                         ": scale the image or the intrinsics");
 }
 
+/// Decides again what the other views contradict, of the masks of photographs.
+void repair_cut_out(const Run& run, PixelOrigin origin, Result& result, std::vector<cv::Mat>& masks,
+                    const nef::Monitor& monitor) {
+  run.tell(Phase::kLoad, "masks, compared", 0, masks.size());
+  std::vector<PhotographedView> views;
+  std::vector<std::size_t> numbers;
+  std::vector<cv::Mat> own;
+  for (std::size_t i = 0; i < masks.size(); ++i) {
+    const ViewResult& view = result.views[i];
+    if (view.image.empty()) continue;
+    views.push_back({view.name, view.image, view.camera, view.distortion});
+    numbers.push_back(i);
+    own.push_back(masks[i]);
+  }
+  const std::vector<MaskChange> changes = repair_masks(views, origin, own, monitor);
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    masks[numbers[k]] = own[k];
+    result.views[numbers[k]].mask_change = changes[k];
+  }
+  const nef::Messages lines = change_lines(views, changes);
+  result.notes.insert(result.notes.end(), lines.begin(), lines.end());
+}
+
 /// The masks of photographs, in one go, since one rule is looked for that suits all.
 void cut_out_views(const Run& run, const Scene& scene, Result& result, std::vector<cv::Mat>& masks,
                    const nef::Monitor& monitor) {
@@ -101,6 +128,7 @@ void cut_out_views(const Run& run, const Scene& scene, Result& result, std::vect
     masks[i] = std::move(cut.masks[next++]);
     check_size_of(masks[i], scene.views[i], result.views[i].image.string());
   }
+  if (run.options.repair_masks) repair_cut_out(run, result.origin, result, masks, monitor);
 }
 
 cv::Mat load_mask(const ViewResult& entry, const View& view, const SilhouetteOptions& options) {
@@ -300,8 +328,7 @@ std::vector<Part> cones_of(const Run& run, Views& views, const Place& place, con
     nef::Polyhedron cone = make_cone(place.cameras[i], view.silhouette.region, room.box, own);
     view.cone_facets = nef::counts(cone).facets;
     if (view.silhouette.background) cone = nef::complement(nef::interior(cone, own));
-    const auto& row = place.cameras[i].matrix()[2];
-    parts[i] = {std::move(cone), {row[0], row[1], row[2]}};
+    parts[i] = {std::move(cone), place.cameras[i].axis()};
   });
   return parts;
 }
@@ -368,7 +395,7 @@ Vanished explain_empty(const Run& run, const Views& views, const Place& place, c
       vanished.view = views[set.back()].name;
       if (set.size() > 1) {
         vanished.reason = "views " + list_of(names) + " have no point in common";
-      } else if (sgn(depth_range(camera, room.box).farthest) <= 0) {
+      } else if (!camera.is_parallel() && sgn(depth_range(camera, room.box).farthest) <= 0) {
         vanished.reason = "the whole box lies behind its camera (a matrix of the other sign?)";
       } else {
         vanished.reason = "it sees nothing of the box";
@@ -478,9 +505,29 @@ void check_options(const Scene& scene, const Options& options) {
   if (scene.guessed && !options.refine) {
     throw nef::InputError("the cameras of the turntable are not known: they are found by refining them");
   }
+  if (options.repair_masks && (scene.guessed || !options.mask)) {
+    throw nef::InputError(
+        "--repair-masks compares the masks of photographs (--mask) by their cameras: find the cameras first, with "
+        "--refined-scene FILE.json, then name that file");
+  }
+  for (const View& view : scene.views) {
+    if (options.suspects || options.drop_suspects) require_pinhole(view.camera, "--suspects");
+    if (options.refine) require_pinhole(view.camera, "--refine");
+    if (options.repair_masks) require_pinhole(view.camera, "--repair-masks");
+  }
   if (options.at_least && (*options.at_least < 1 || *options.at_least > scene.views.size())) {
     throw nef::InputError("--at-least: from 1 to " + std::to_string(scene.views.size()) + ", the number of views");
   }
+}
+
+/// The pieces of a hull, and the largest alone if that is asked for.
+void look_at_pieces(const Options& options, Result& result, const nef::Monitor& monitor) {
+  if (result.vanished || nef::counts(result.hull).volumes <= 2) return;  // the outside and one inside
+  const std::vector<nef::Polyhedron> pieces = nef::split(result.hull, monitor);
+  if (pieces.size() < 2) return;
+  for (const nef::Polyhedron& piece : pieces) result.pieces.push_back(nef::approximate_volume(piece, monitor).value);
+  std::sort(result.pieces.begin(), result.pieces.end(), std::greater<>());
+  if (options.largest) result.hull = pieces[nef::largest_piece(pieces, monitor)];
 }
 
 /// Silhouettes -> Box -> Cones -> Hull.
@@ -499,6 +546,8 @@ void finish(const Run& run, const Scene& scene, Place place, Result& result, con
   result.direct = found.direct;
   result.vanished = std::move(found.vanished);
   result.hull = std::move(found.hull);
+  timed(result.phases, Phase::kIntersection, monitor,
+        [&](const nef::Monitor& watching) { look_at_pieces(run.options, result, watching); });
   if (place.moved()) {
     timed(result.phases, Phase::kIntersection, monitor, [&](const nef::Monitor& watching) {
       result.hull = nef::transform(result.hull, nef::AffineMap::translate(place.shift), watching);

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "apps/visual_hull/formats/read_scene.h"
+#include "apps/visual_hull/mask_repair/repair_masks.h"
 #include "apps/visual_hull/masks/mask_method.h"
 #include "apps/visual_hull/refine/refine.h"
 #include "apps/visual_hull/scene/images.h"
@@ -57,6 +58,7 @@ enum class Way : std::uint8_t {
 struct Options {
   SilhouetteOptions silhouette;                 ///< but for `origin`, which is the scene's
   std::optional<MaskMethod> mask;               ///< the images are photographs: masks are made of them, no threshold
+  bool repair_masks = false;                    ///< of photographs: decide again what the other views contradict
   std::optional<PixelOrigin> origin;            ///< instead of the scene's
   std::optional<WorldBox> box;                  ///< instead of the scene's
   std::optional<std::filesystem::path> images;  ///< a folder: the i-th image is the i-th view's
@@ -65,6 +67,7 @@ struct Options {
   bool suspects = false;                ///< compare the views: Result::consistency
   bool drop_suspects = false;           ///< leave out the guilty view, compare again, and so on; three views stay
   std::optional<std::size_t> at_least;  ///< the points in at least so many silhouettes, instead of in all
+  bool largest = false;                 ///< keep the piece of the largest volume only: Result::pieces
   bool verify = false;
   nef::Monitor monitor = {};  ///< who watches compute; what it refers to must outlive the call
 };
@@ -73,8 +76,9 @@ struct Options {
 struct ViewResult {
   std::string name;
   Camera camera;
-  std::filesystem::path image;  ///< empty for polygons
-  Distortion distortion;        ///< of the image
+  std::filesystem::path image;            ///< empty for polygons
+  Distortion distortion;                  ///< of the image
+  std::optional<MaskChange> mask_change;  ///< if masks were repaired
   ViewSilhouette silhouette;
   std::optional<std::size_t> cone_facets;  ///< where the cone was built
   std::optional<Verification> verification;
@@ -101,6 +105,9 @@ struct Result {
   WorldBox box;
   PixelOrigin origin = PixelOrigin::kCenter;  ///< of the images
   bool box_found = false;                     ///< the box comes from the cones
+  /// Volumes of the pieces (connected components) of the hull, the largest first, if there are several; of those that
+  /// Options::largest has left out, too.
+  std::vector<double> pieces;
   std::optional<WorldBox> enclosing;  ///< holds the intersection of all cones in its interior; not always looked for
   std::optional<refine::Refinement> refinement;  ///< what became of the cameras, if they were refined
   bool direct = false;                           ///< the hull was found vertex by vertex

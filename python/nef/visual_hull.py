@@ -17,7 +17,11 @@ from .errors import InputError
 
 Progress = Optional[Callable[[str, str, int, int], object]]
 
-__all__ = ["Hull", "Masks", "RefinedView", "Refinement", "View", "compute", "masks", "read", "refine"]
+#: the board that is used where none is named
+USUAL_BOARD = "charuco:7x5,30mm,22mm,DICT_5X5"
+
+__all__ = ["CalibratedView", "Calibration", "Hull", "Masks", "RefinedView", "Refinement", "USUAL_BOARD", "View", "board",
+           "calibrate", "compute", "masks", "read", "refine"]
 
 
 class View(NamedTuple):
@@ -54,15 +58,31 @@ class Hull(NamedTuple):
     box: tuple
     #: (view, reason) if nothing is left of the hull at that view; else None
     vanished: Optional[Tuple[str, str]]
-    #: lines on how images were paired with views, where that was not obvious; they are warnings, too
+    #: lines on how images were paired with views, where that was not obvious, and the like; they are warnings, too
     notes: Sequence[str] = ()
+    #: volumes of its pieces, the largest first, if there are several; of those that were left out, too
+    pieces: Sequence[float] = ()
+    #: names of the views that disagree with the others, if that was asked for; those left out first
+    suspects: Sequence[str] = ()
+    #: what has become of the cameras, a Refinement, if they were refined
+    refinement: Optional["Refinement"] = None
+
+
+_OPTIONS = dict(box=None, tolerance=0, outer=False, min_area=0, half_pixels=False, unknown_beyond=False, images=None,
+                mask=None, repair_masks=False, refine=False, suspects=False, drop_suspects=False, at_least=None,
+                largest=False, verify=True, threads=1)
+
+
+def _options(**given):
+    return _visual_hull.Options({**_OPTIONS, **given})
 
 
 def _hull(answer):
     for note in answer["notes"]:
         warnings.warn(note, stacklevel=3)
+    refinement = answer["refinement"]
     return Hull(answer["hull"], [View(*view) for view in answer["views"]], answer["box"], answer["vanished"],
-                answer["notes"])
+                answer["notes"], answer["pieces"], answer["suspects"], refinement and _refinement(refinement))
 
 
 def _told(error, names):
@@ -73,8 +93,10 @@ def _told(error, names):
 
 
 def compute(masks: Sequence[Any], cameras: Sequence[Any], names: Optional[Sequence[str]] = None, *, box: Any = None,
-            tolerance: float = 0, half_pixels: bool = False, unknown_beyond: bool = False, verify: bool = True,
-            threads: int = 1, progress: Progress = None) -> Hull:
+            tolerance: float = 0, outer: bool = False, min_area: float = 0, half_pixels: bool = False,
+            unknown_beyond: bool = False, lens: Any = None, suspects: bool = False, drop_suspects: bool = False,
+            at_least: Optional[int] = None, largest: bool = False, verify: bool = True, threads: int = 1,
+            progress: Progress = None) -> Hull:
     """The visual hull of masks.
 
     - masks: arrays of shape (H, W); what is not 0 is the object
@@ -83,8 +105,15 @@ def compute(masks: Sequence[Any], cameras: Sequence[Any], names: Optional[Sequen
     - names: of the views, for messages; "view 0", ... if None
     - box: two corners that bound the hull; found from the cameras if None
     - tolerance: by how many pixels silhouettes may be simplified; 0 keeps every corner
+    - outer: simplified silhouettes contain the masks, so the hull is an outer bound
+    - min_area: islands and holes of fewer square pixels are dropped and filled (with outer: holes only)
     - half_pixels: False: whole coordinates are centres of pixels, as OpenCV has it; True: corners of pixels
     - unknown_beyond: what lies beyond the frame of an image is kept, not carved
+    - lens: the distortion that the masks have, (K, coefficients) as OpenCV has them, or one such pair a mask; the
+      matrices are those without it
+    - suspects: compare the views, for `suspects`; drop_suspects: leave out the one that disagrees, and so on
+    - at_least: the points in at least so many silhouettes, instead of in all; not verified
+    - largest: keep the piece of the largest volume only
     - verify: project the hull back, for `inside` and `score` of the views
     - threads: 0 for as many as the machine has; the result does not depend on it
     - progress: a function of (phase, view, done, total)
@@ -96,24 +125,47 @@ def compute(masks: Sequence[Any], cameras: Sequence[Any], names: Optional[Sequen
     names = [f"view {i}" for i in range(len(masks))] if names is None else [str(name) for name in names]
     if not len(masks) == len(cameras) == len(names):
         raise ValueError(f"{len(masks)} masks need as many cameras and names, not {len(cameras)} and {len(names)}")
-    options = _visual_hull.Options(tolerance, half_pixels, unknown_beyond, box, verify, threads)
+    lenses = None if lens is None else _lenses(lens, len(masks))
+    options = _options(box=box, tolerance=tolerance, outer=outer, min_area=min_area, half_pixels=half_pixels,
+                       unknown_beyond=unknown_beyond, suspects=suspects, drop_suspects=drop_suspects, at_least=at_least,
+                       largest=largest, verify=verify, threads=threads)
     with tempfile.TemporaryDirectory() as folder:
         images = []
         for i, mask in enumerate(masks):
             images.append(os.path.join(folder, f"{i}.png"))
             _visual_hull.write_mask((mask != 0).astype(numpy.uint8), images[-1])
         try:
-            hull = _hull(_visual_hull.from_views(names, images, cameras, folder, options, progress))
+            hull = _hull(_visual_hull.from_views(names, images, cameras, lenses, folder, options, progress))
         except InputError as error:
             raise _told(error, names) from None
     return hull._replace(views=[view._replace(image="") for view in hull.views])
 
 
-def read(path: Any, *, box: Any = None, tolerance: float = 0, half_pixels: bool = False, unknown_beyond: bool = False,
-         verify: bool = True, threads: int = 1, progress: Progress = None) -> Hull:
+def _lenses(lens, count):
+    """A pair of K and coefficients for each of so many masks."""
+    pairs = [lens] * count if len(lens) == 2 and len(lens[0]) == 3 else list(lens)  # K has three rows
+    if len(pairs) != count:
+        raise ValueError(f"{count} masks need one lens, or as many, not {len(pairs)}")
+    return [(numpy.asarray(k).tolist(), [float(c) for c in coefficients]) for k, coefficients in pairs]
+
+
+def read(path: Any, *, box: Any = None, tolerance: float = 0, outer: bool = False, min_area: float = 0,
+         half_pixels: bool = False, unknown_beyond: bool = False, images: Any = None, mask: Optional[str] = None,
+         repair_masks: bool = False, refine: bool = False, suspects: bool = False, drop_suspects: bool = False,
+         at_least: Optional[int] = None, largest: bool = False, verify: bool = True, threads: int = 1,
+         progress: Progress = None) -> Hull:
     """The visual hull of a scene: a file or folder of cameras and images in any format that the command reads (JSON,
-    NeRF's transforms.json, COLMAP, Middlebury, matrices); see compute for the rest."""
-    options = _visual_hull.Options(tolerance, half_pixels, unknown_beyond, box, verify, threads)
+    NeRF's transforms.json, COLMAP, Middlebury, matrices); see compute for what it has, too.
+
+    - images: a folder with an image for each view, instead of those that the scene names
+    - mask: the images are photographs, and masks are made of them, as `masks` does by this method
+    - repair_masks: decide again what the other views contradict in these masks; `notes` tell each change
+    - refine: correct the cameras by the silhouettes first, as `refine` does
+    """
+    options = _options(box=box, tolerance=tolerance, outer=outer, min_area=min_area, half_pixels=half_pixels,
+                       unknown_beyond=unknown_beyond, images=None if images is None else os.fspath(images), mask=mask,
+                       repair_masks=repair_masks, refine=refine, suspects=suspects, drop_suspects=drop_suspects,
+                       at_least=at_least, largest=largest, verify=verify, threads=threads)
     return _hull(_visual_hull.from_file(os.fspath(path), options, progress))
 
 
@@ -173,11 +225,14 @@ def refine(masks: Sequence[Any], cameras: Optional[Sequence[Any]] = None, names:
         answer = _visual_hull.refine(names, masks, given, half_pixels, threads)
     except InputError as error:
         raise _told(error, names) from None
-    matrices = [numpy.array(camera) for camera in answer["cameras"]]
-    if not answer["accepted"] and cameras is not None:
-        matrices = list(cameras)
-    return Refinement(matrices, answer["accepted"], answer["model"], answer["residual"], answer["held_out"],
-                      answer["focal"], answer["undetermined"], [RefinedView(*view) for view in answer["views"]])
+    found = _refinement(answer)
+    return found if found.accepted or cameras is None else found._replace(cameras=list(cameras))
+
+
+def _refinement(answer):
+    return Refinement([numpy.array(camera) for camera in answer["cameras"]], answer["accepted"], answer["model"],
+                      answer["residual"], answer["held_out"], answer["focal"], answer["undetermined"],
+                      [RefinedView(*view) for view in answer["views"]])
 
 
 class Masks(NamedTuple):
@@ -203,3 +258,72 @@ def masks(photographs: Sequence[Any], method: str = "auto", *, threads: int = 1)
     for note in answer.notes:
         warnings.warn(note, stacklevel=2)
     return answer
+
+
+def board(path: Any, description: str = USUAL_BOARD) -> None:
+    """Writes a ChArUco board to be printed, by which `calibrate` finds cameras: .pdf or .svg, to scale, or .png.
+
+    `description` is "charuco:COLUMNSxROWS,SQUARE,MARKER,DICTIONARY", lengths in mm unless m, cm or in follows. Raises
+    InputError for another one, and for another extension.
+    """
+    data = _visual_hull.board(description, os.path.splitext(os.fspath(path))[1])
+    with open(path, "wb") as file:
+        file.write(data)
+
+
+class CalibratedView(NamedTuple):
+    """What has become of one photograph."""
+
+    photograph: str
+    #: corners of the board that were found
+    corners: int
+    #: pixels between corners as seen and as the camera sees them (root mean square); None if it was refused
+    error: Optional[float]
+    #: the matrix of shape (3, 4), in millimetres from the middle of the board, z up, the lens undone; None if refused
+    camera: Any
+    #: why the photograph is of no use; None: it has a camera
+    refused: Optional[str]
+
+
+class Calibration(NamedTuple):
+    """Cameras by a board."""
+
+    #: focal lengths along x and y, in pixels
+    focal: Tuple[float, float]
+    #: standard deviation of the focal length, as a share of it
+    focal_deviation: float
+    #: where the axis of the lens meets the image, in pixels
+    principal_point: Tuple[float, float]
+    #: whether that is the middle of the image because the boards do not determine it
+    principal_point_assumed: bool
+    #: k1, k2, p1, p2, k3, as OpenCV has them
+    distortion: List[float]
+    #: pixels between corners as seen and as the cameras see them (root mean square)
+    error: float
+    #: a list of CalibratedView, in the order of the photographs
+    views: List[CalibratedView]
+    #: the same of the photographs that the lens was determined by, if there were any
+    lens_views: List[CalibratedView]
+    #: photographs that were refused, and what the series does not determine; they are warnings, too
+    notes: Sequence[str]
+
+
+def calibrate(photographs: Sequence[Any], board: str = USUAL_BOARD, *, lens: Sequence[Any] = (), scene: Any = None,
+              threads: int = 1) -> Calibration:
+    """The cameras of photographs (files) of an object that stands on a board, or turns with it.
+
+    - board: as `board` has it
+    - lens: photographs of the board held at several tilts, by the same camera at the same zoom and focus, that determine
+      the lens; if there are none, the photographs themselves do
+    - scene: a file (.json) for the cameras, their lens and the names of the photographs, to be given to `read`
+
+    Raises InputError if the board is found in less than three photographs, or for a file that is no image.
+    """
+    answer = _visual_hull.calibrate([os.fspath(file) for file in photographs], board,
+                                    [os.fspath(file) for file in lens], "" if scene is None else os.fspath(scene), threads)
+    for note in answer["notes"]:
+        warnings.warn(note, stacklevel=2)
+    for key in "views", "lens_views":
+        answer[key] = [CalibratedView(*view)._replace(camera=None if view[3] is None else numpy.array(view[3]))
+                       for view in answer[key]]
+    return Calibration(**answer)

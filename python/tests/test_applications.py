@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import re
 from fractions import Fraction
 
 import numpy
@@ -321,6 +322,94 @@ def test_masks_of_photographs(needs, tmp_path):
     assert made.masks[0].sum() == pytest.approx(600, abs=40)
     with pytest.raises(nef.InputError):
         visual_hull.masks([tmp_path / "nowhere.png"])
+
+
+def test_options_of_hulls(needs):
+    visual_hull = needs("visual_hull")
+    masks, cameras = turntable_of_balls(12)
+    plain = visual_hull.compute(masks, cameras, tolerance=1)
+    outer = visual_hull.compute(masks, cameras, tolerance=1, outer=True)
+    assert visual_hull.compute(masks, cameras).solid <= outer.solid and not plain.pieces and not plain.suspects
+    # A speck of two pixels in every mask, where a ball of its own would be; it goes as a piece, or by its area.
+    speckled = [mask.copy() for mask in masks]
+    for mask, camera in zip(speckled, cameras):
+        u, v, w = camera @ (0, 0, 1.25, 1)
+        mask[int(round(v / w)), int(round(u / w)):int(round(u / w)) + 2] = True
+    pieces = visual_hull.compute(speckled, cameras, tolerance=.3)
+    assert len(pieces.pieces) >= 2 and pieces.pieces[1] < .001 * pieces.pieces[0]
+    largest = visual_hull.compute(speckled, cameras, tolerance=.3, largest=True)
+    assert len(largest.solid.split()) == 1 and largest.solid < pieces.solid
+    assert visual_hull.compute(speckled, cameras, min_area=5, tolerance=.3).solid == visual_hull.compute(
+        masks, cameras, min_area=5, tolerance=.3).solid
+    # A mask that lost its lower half is a suspect, and is left out.
+    cut = [mask.copy() for mask in masks]
+    cut[3][100:] = False
+    assert visual_hull.compute(cut, cameras, tolerance=1, suspects=True).suspects == ["view 3"]
+    dropped = visual_hull.compute(cut, cameras, tolerance=1, drop_suspects=True)
+    assert dropped.suspects == ["view 3"] and len(dropped.views) == 11
+    most = visual_hull.compute(masks[:4], cameras[:4], tolerance=4, at_least=3, box=((-2, -2, -2), (2, 2, 2)))
+    assert visual_hull.compute(masks[:4], cameras[:4], tolerance=4).solid <= most.solid and most.views[0].inside is None
+    # A lens that does nothing, and one that makes the image larger.
+    k = numpy.array([[300, 0, 119.5], [0, 300, 99.5], [0, 0, 1]])
+    assert visual_hull.compute(masks, cameras, lens=(k, [0, 0, 0, 0]), tolerance=1).solid == plain.solid
+    bent = visual_hull.compute(masks, cameras, lens=[(k, [.1, 0, 0, 0])] * 12, tolerance=1)
+    assert bent.solid.approximate_volume().value < plain.solid.approximate_volume().value
+    with pytest.raises(ValueError):
+        visual_hull.compute(masks, cameras, lens=(k, [0, 0]))
+    with pytest.raises(ValueError):
+        visual_hull.compute(masks, cameras, lens=[(k, [0, 0, 0, 0])] * 3)
+
+
+def photographs_of_board(folder, svg, count, focal=700, shape=(480, 640)):
+    """Photographs of the page of a board, tilted and turned, and the matrices of their cameras, about its middle."""
+    page = [float(x) for x in re.search(r'viewBox="0 0 (\S+) (\S+)"', svg).groups()]
+    pixels = 5
+    sheet = numpy.full((int(page[1] * pixels), int(page[0] * pixels)), 220.)
+    for x, y, w, h in re.findall(r"M([\d.]+) ([\d.]+)h([\d.]+)v([\d.]+)h", svg):
+        left, top, right, bottom = (round(float(t) * pixels) for t in (x, y, float(x) + float(w), float(y) + float(h)))
+        sheet[top:bottom, left:right] = 20
+    k = numpy.array([[focal, 0, (shape[1] - 1) / 2], [0, focal, (shape[0] - 1) / 2], [0, 0, 1]])
+    # Four samples a pixel.
+    v, u = numpy.mgrid[-.25:shape[0] - .5:.5, -.25:shape[1] - .5:.5]
+    files, cameras = [], []
+    for i in range(count):
+        a, e = 2 * i, .7 + .3 * (i % 2)
+        eye = 380 * numpy.array([numpy.cos(a) * numpy.cos(e), numpy.sin(a) * numpy.cos(e), numpy.sin(e)])
+        ahead = -eye / numpy.linalg.norm(eye)
+        right = numpy.cross(ahead, (0, 0, 1))
+        right /= numpy.linalg.norm(right)
+        rows = numpy.stack([right, numpy.cross(ahead, right), ahead])
+        cameras.append(k @ numpy.column_stack([rows, -rows @ eye]))
+        rays = numpy.stack([u, v, numpy.ones(u.shape)], -1) @ numpy.linalg.inv(k @ rows).T
+        at = eye - eye[2] / rays[..., 2:] * rays
+        x = numpy.floor((at[..., 0] + page[0] / 2) * pixels).astype(int)
+        y = numpy.floor((page[1] / 2 - at[..., 1]) * pixels).astype(int)
+        on = (rays[..., 2] < 0) & (x >= 0) & (y >= 0) & (x < sheet.shape[1]) & (y < sheet.shape[0])
+        seen = numpy.where(on, sheet[y * on, x * on], 110)
+        gray = seen.reshape(shape[0], 2, shape[1], 2).mean((1, 3)).astype(numpy.uint8)
+        files.append(folder / f"photo{i}.ppm")
+        files[-1].write_bytes(b"P6 %d %d 255 " % (shape[1], shape[0]) + numpy.repeat(gray, 3).tobytes())
+    return files, cameras
+
+
+def test_cameras_by_a_board(needs, tmp_path):
+    visual_hull = needs("visual_hull")
+    visual_hull.board(tmp_path / "board.svg", "charuco:6x4,30mm,22mm,DICT_4X4")
+    files, cameras = photographs_of_board(tmp_path, (tmp_path / "board.svg").read_text(), 6)
+    scene = tmp_path / "scene.json"
+    found = visual_hull.calibrate(files, "charuco:6x4,30mm,22mm,DICT_4X4", scene=scene)
+    assert found.error < .3 and found.focal[0] == pytest.approx(700, rel=.01)
+    assert [view.corners for view in found.views] == [15] * 6 and not found.lens_views
+    for view, camera in zip(found.views, cameras):
+        # Points around the board are seen within two pixels of where they are.
+        for point in (0, 0, 0, 1), (60, 40, 0, 1), (-60, 40, 30, 1):
+            a, b = view.camera @ point, camera @ point
+            assert numpy.linalg.norm(a[:2] / a[2] - b[:2] / b[2]) < 2
+    assert [camera["image"] for camera in json.loads(scene.read_text())["cameras"]] == [file.name for file in files]
+    with pytest.raises(nef.InputError, match="board"):
+        visual_hull.calibrate(files, "charuco:6x4,30mm")
+    with pytest.raises(nef.InputError, match="0 of 6"):
+        visual_hull.calibrate(files, "charuco:6x4,30mm,22mm,DICT_7X7")
 
 
 def test_visual_hull_of_files(needs):

@@ -11,6 +11,7 @@ DepthMap::DepthMap(const Camera& camera, PixelOrigin origin, int width, int heig
       height_(height),
       shift_(origin == PixelOrigin::kCorner ? -0.5 : 0),
       nearest_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0) {
+  require_pinhole(camera, "--color");
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 4; ++j) matrix_[i][j] = nef::nearest_double(camera.matrix()[i][j]);
   }

@@ -18,7 +18,9 @@ namespace visual_hull {
 namespace {
 
 const char* const kFooter =
-    "visual_hull masks PHOTOGRAPHS -o DIR cuts objects out of photographs (see visual_hull masks --help).\n"
+    "visual_hull masks PHOTOGRAPHS -o DIR cuts objects out of photographs, visual_hull board -o FILE.pdf makes a "
+    "board\n"
+    "to be printed, visual_hull calibrate PHOTOGRAPHS -o SCENE.json finds cameras by it (each has a --help).\n"
     "Scenes are told apart by their content; --check says what was understood:\n"
     "  .json      {\"cameras\": [{\"image\": FILE, \"P\": 3x4} or {\"image\": FILE, \"K\": 3x3, \"R\": 3x3, \"t\": 3,\n"
     "             \"distortion\": [k1, k2, p1, p2, ...]}, ...], \"box\": [x0,y0,z0,x1,y1,z1], \"threshold\": "
@@ -78,6 +80,8 @@ void add_input_options(CLI::App& app, Arguments& a) {
   app.add_option("--mask", a.mask,
                  "The images are photographs: cut the object out, by one rule for all: " + mask_help())
       ->type_name("METHOD");
+  app.add_flag("--repair-masks", a.repair_masks,
+               "Decide again what the other views contradict in a mask of --mask, and tell each change");
   app.add_flag("--invert", a.invert, "The object is darker than the background");
   app.add_option("--pixel-origin", a.origin,
                  "Whole image coordinates are the center or the upper left corner of a pixel (default: as the "
@@ -131,6 +135,7 @@ void add_output_options(CLI::App& app, Arguments& a) {
   app.add_option("--at-least", a.at_least, "The points in at least K silhouettes, instead of in all")
       ->check(nef::positive())
       ->type_name("K");
+  app.add_flag("--largest", a.largest, "Keep the piece of the largest volume only");
   app.add_flag("--exact-volume", a.exact_volume, "Report the exact volume, too: millions of digits for detailed hulls");
   app.add_option("--report", a.session.report, "Write a report as JSON ('-': standard output)")->type_name("FILE.json");
   app.add_option("--overlay", a.overlay, "Directory for a picture per view: image, polygon, projection of the hull")
@@ -172,6 +177,7 @@ Options to_options(const Arguments& a) {
     }
     options.mask = parse_mask_method(a.mask);
   }
+  options.repair_masks = a.repair_masks;
   if (!a.box.empty()) options.box = parse_box(a.box);
   if (!a.images.empty()) options.images = a.images;
   if (a.way != "best") options.way = a.way == "direct" ? Way::kDirect : Way::kCones;
@@ -186,6 +192,7 @@ Options to_options(const Arguments& a) {
     options.at_least = a.at_least;
   }
   options.verify = a.verify;
+  options.largest = a.largest;
   options.monitor = a.session.monitor;
   return options;
 }

@@ -36,6 +36,7 @@ struct Arguments {
   double height = 0;
   std::string threshold;
   std::string mask;
+  bool repair_masks = false;
   bool invert = false;
   std::string channel;
   std::vector<std::string> silhouettes;
@@ -45,6 +46,7 @@ struct Arguments {
   std::string page;
   bool check = false;
   bool verify = false;
+  bool largest = false;
   std::string way = "best";
   bool refine = false;
   std::string refined_scene;

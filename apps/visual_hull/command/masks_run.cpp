@@ -14,8 +14,8 @@
 #include "apps/visual_hull/command/arguments.h"
 #include "apps/visual_hull/command/mask_overview.h"
 #include "apps/visual_hull/command/overlay.h"
+#include "apps/visual_hull/command/photographs.h"
 #include "apps/visual_hull/masks/cut_out.h"
-#include "apps/visual_hull/scene/images.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/io/file_bytes.h"
@@ -33,18 +33,6 @@ struct MaskArguments {
   std::string overview;
 };
 
-std::vector<fs::path> photographs_of(const std::vector<std::string>& given) {
-  std::vector<fs::path> files;
-  for (const std::string& path : given) {
-    if (!fs::is_directory(path)) {
-      files.emplace_back(path);
-      continue;
-    }
-    for (fs::path& file : list_images(path)) files.push_back(std::move(file));
-  }
-  return files;
-}
-
 // DIR/NAME.png for each photograph. Names that would meet, or would be those of the photographs themselves, are
 // refused.
 std::vector<fs::path> targets_of(const std::vector<fs::path>& photographs, const fs::path& folder) {
@@ -61,13 +49,6 @@ std::vector<fs::path> targets_of(const std::vector<fs::path>& photographs, const
     }
   }
   return targets;
-}
-
-void make_folder(const std::string& option, const fs::path& folder) {
-  std::error_code error;
-  if (folder.empty() || fs::is_directory(folder, error)) return;
-  fs::create_directories(folder, error);
-  if (error) throw nef::InputError(option + ": cannot make the directory " + folder.string());
 }
 
 void write_picture(const fs::path& file, const cv::Mat& picture) { nef::write_file(file.string(), png_of(picture)); }

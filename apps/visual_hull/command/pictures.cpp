@@ -47,6 +47,7 @@ double image_depth(const Camera& camera, const Result& result) {
 class ImagePlane {
  public:
   ImagePlane(const Camera& camera, double depth) : camera_(camera), depth_(depth) {
+    require_pinhole(camera, "--page");
     for (std::size_t i = 0; i < 3; ++i) centre_[i] = nef::nearest_double(camera.centre()[i]);
   }
 

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <span>
 
 #include "apps/program/set_info.h"
 #include "nef/query/measures/approximate_volume.h"
@@ -37,6 +38,10 @@ json view_json(const ViewResult& view) {
              {"cut_by_frame", s.cut_by_frame},
              {"keeps_unseen", s.background}};
   if (s.image_size.area() > 0) entry["image_size"] = {s.image_size.width, s.image_size.height};
+  if (view.mask_change) {
+    entry["mask_added_px"] = view.mask_change->added;
+    entry["mask_removed_px"] = view.mask_change->removed;
+  }
   return entry;
 }
 
@@ -125,6 +130,7 @@ nef::Json make_report(const Result& result, bool exact_volume) {
   report["box"] = box_json(result.box);
   report["box_found"] = result.box_found;
   report["direct"] = result.direct;
+  if (!result.pieces.empty()) report["pieces"] = result.pieces;
   report["result"] = nef::set_info(result.hull, {.exact = exact_volume, .bounds = true});
   if (result.vanished) {
     report["vanished"] = {
@@ -244,6 +250,19 @@ std::optional<std::string> cut_note(const Result& result) {
       names.size() == 1 ? "" : "s", names.size() == 1 ? "" : "s", list);
 }
 
+namespace {
+
+// "; 5 pieces, of volumes 1, 0.2, 0.1, ...", of a hull of several.
+std::string pieces_text(const std::vector<double>& volumes) {
+  constexpr std::size_t kTold = 3;
+  if (volumes.empty()) return "";
+  const std::span<const double> told = std::span(volumes).first(std::min(kTold, volumes.size()));
+  return fmt::format("; {} pieces, of volumes {:.3g}{}", volumes.size(), fmt::join(told, ", "),
+                     told.size() < volumes.size() ? ", ..." : "");
+}
+
+}  // namespace
+
 std::string summary(const Result& result, const nef::Monitor& monitor) {
   const nef::Counts counts = nef::counts(result.hull);
   double seconds = 0;
@@ -251,9 +270,9 @@ std::string summary(const Result& result, const nef::Monitor& monitor) {
   std::size_t vertices = 0;
   for (const ViewResult& view : result.views) vertices += view.silhouette.region.vertex_count();
   return fmt::format(
-      "{} views, {} polygon vertices -> hull with {} vertices, {} edges, {} facets, volume {:.6g} ({:.3g} s)",
+      "{} views, {} polygon vertices -> hull with {} vertices, {} edges, {} facets, volume {:.6g}{} ({:.3g} s)",
       result.views.size(), vertices, counts.vertices, counts.edges, counts.facets,
-      nef::approximate_volume(result.hull, monitor).value, seconds);
+      nef::approximate_volume(result.hull, monitor).value, pieces_text(result.pieces), seconds);
 }
 
 }  // namespace visual_hull

@@ -15,7 +15,8 @@ namespace visual_hull {
 
 /// What a report has of a hull beside what all have (see nef::Session::print): `views` (contours, holes, vertices, cone
 /// facets), `box`, `result` (the keys of nef::set_info), `verify` if it was done, `suspects` (names) and measures in
-/// `views` if views were compared, `dropped`, `cpu` (processor seconds of each phase).
+/// `views` if views were compared, `dropped`, `pieces` (volumes) if there are several, `cpu` (processor seconds of each
+/// phase).
 nef::Json make_report(const Result& result, bool exact_volume = false);
 
 /// Tells the session what each phase of the work took.

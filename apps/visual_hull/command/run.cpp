@@ -13,6 +13,7 @@
 
 #include "apps/program/run_program.h"
 #include "apps/visual_hull/command/arguments.h"
+#include "apps/visual_hull/command/calibrate_run.h"
 #include "apps/visual_hull/command/frames.h"
 #include "apps/visual_hull/command/hull_file.h"
 #include "apps/visual_hull/command/masks_run.h"
@@ -95,15 +96,14 @@ int conclude(nef::Session& session, const Scene& scene, const Result& result) {
 
 // The scene as it was used: refined cameras, and the images that were found, relative to the file.
 void write_refined_scene(const Arguments& a, Scene scene, const Result& result) {
-  const fs::path folder = fs::absolute(a.refined_scene).parent_path();
   const std::vector<fs::path> images =
       images_of(scene, scene_folder(a.scene), a.images.empty() ? std::nullopt : std::optional<fs::path>(a.images));
   scene.origin = result.origin;
   for (std::size_t i = 0; i < scene.views.size(); ++i) {
     scene.views[i].camera = result.refinement->views[i].camera;
-    if (!images[i].empty()) scene.views[i].image = fs::absolute(images[i]).lexically_proximate(folder);
+    if (!images[i].empty()) scene.views[i].image = images[i];
   }
-  nef::write_file(a.refined_scene, write_scene_json(scene));
+  write_scene_file(a.refined_scene, std::move(scene));
 }
 
 // What is asked for, into files; the mesh that was written if the hull was decimated. A hull that vanished has pictures
@@ -176,7 +176,10 @@ int run(const Arguments& a) {
 int run_command(int argc, char** argv) {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // errors are ours to tell
   cv::setNumThreads(1);                                                   // threads have whole views to work on
-  if (argc > 1 && std::string_view(argv[1]) == "masks") return run_masks_command(argc - 1, argv + 1);
+  const std::string_view first = argc > 1 ? argv[1] : "";
+  if (first == "masks") return run_masks_command(argc - 1, argv + 1);
+  if (first == "board") return run_board_command(argc - 1, argv + 1);
+  if (first == "calibrate") return run_calibrate_command(argc - 1, argv + 1);
   nef::Session session("visual_hull", std::cout, std::cerr);
   Arguments arguments(session);
   CLI::App app{

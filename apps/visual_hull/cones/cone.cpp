@@ -6,6 +6,8 @@
 //   n_k = M^T l_k            the plane of edge k, positive towards the region;
 //   r_k = det(M) n_i x n_j   the direction in which vertex k is seen, if l_i x l_j = +u_k;
 //   e_k = det(M) n_k x m_3   the direction of edge k in a plane of constant depth (normal m_3).
+// If the lines of sight are parallel, the third row of M vanishes, m_3 is the axis m_1 x m_2, and all this holds with
+// det(M) = 1.
 // With det(M) > 0, r_k -> r_k+1 turns counterclockwise about n_k, and counterclockwise in the
 // image is counterclockwise about m_3; with det(M) < 0 both are reversed.
 #include "apps/visual_hull/cones/cone.h"
@@ -256,6 +258,10 @@ DepthRange depth_range(const Camera& camera, const WorldBox& box) {
 nef::Polyhedron make_cone(const Camera& camera, const Silhouette& silhouette, const WorldBox& box,
                           const nef::Monitor& monitor) {
   const DepthRange range = depth_range(camera, box);
+  if (camera.is_parallel() && !silhouette.empty()) {
+    ConeBuilder builder(camera, silhouette, monitor);
+    return builder.frustum(camera, nearby(range.nearest, -1), nearby(range.farthest, 1));
+  }
   // At depth 0 only the centre itself may be in the box: the apex alone, which is no solid.
   if (silhouette.empty() || sgn(range.farthest) < 0) return {};
   ConeBuilder builder(camera, silhouette, monitor);

@@ -16,8 +16,8 @@ struct DepthRange {
 DepthRange depth_range(const Camera& camera, const WorldBox& box);
 
 /// A closed solid that agrees, within `box`, with the one-sided cone of the points whose image lies
-/// in the silhouette; the camera's centre, where it lies in the box, is its apex and belongs to
-/// it. Beyond the box the solid ends at planes of constant depth. Holes of the silhouette are
+/// in the silhouette (the prism, if the lines of sight are parallel); the camera's centre, where it lies in the box, is
+/// its apex and belongs to it. Beyond the box the solid ends at planes of constant depth. Holes of the silhouette are
 /// tunnels. Every plane through the apex comes straight from the matrix and two vertices, so
 /// equal lines in equal cameras are the same plane. Empty if the silhouette is empty or the whole
 /// box lies behind the camera. O(n log n) for n vertices.

@@ -133,6 +133,7 @@ class StorageReader {
     } else {
       sort_nodes(root);
       add_views();
+      if (scene_.views.empty()) add_counted_matrices(root);
     }
     if (scene_.views.empty()) {
       std::string names;
@@ -298,6 +299,33 @@ class StorageReader {
     Matrix34d p;
     for (int i = 0; i < 12; ++i) p(i / 4, i % 4) = flat.at<double>(i);
     return p;
+  }
+
+  // A rotation and a translation, of which nobody knows the lens.
+  static bool is_pose(const Matrix34d& m) {
+    const Eigen::Matrix3d left = m.leftCols<3>();
+    return (left * left.transpose() - Eigen::Matrix3d::Identity()).norm() < 1e-3;
+  }
+
+  // Projection matrices by the names of one word with a number in it, as in viff000_matrix, viff001_matrix, ...
+  void add_counted_matrices(const cv::FileNode& root) {
+    std::string pattern;
+    for (const cv::FileNode& node : root) {
+      const std::string name = node.name();
+      const std::size_t first = name.find_first_of("0123456789");
+      if (first == std::string::npos) continue;
+      const std::size_t end = std::min(name.find_first_not_of("0123456789", first), name.size());
+      const std::string after = plain(name.substr(end));
+      const cv::Mat m = matrix_of(node);
+      if ((after != "matrix" && meaning(after) != "P") || m.rows != 3 || m.total() != 12 || is_pose(first_rows(m)))
+        continue;
+      const std::string own = name.substr(0, first) + "*" + name.substr(end);
+      if (!pattern.empty() && own != pattern) return;  // several kinds: --matrices tells
+      pattern = own;
+    }
+    if (pattern.empty()) return;
+    matrices_ = pattern;
+    add_matrices(root);
   }
 
   // All matrices whose names fit the pattern.

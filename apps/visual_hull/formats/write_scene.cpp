@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "nef/io/file_bytes.h"
+
 namespace visual_hull {
 namespace {
 
@@ -88,6 +90,15 @@ std::string write_scene_json(const Scene& scene) {
     if (threshold.invert) text += ",\n  \"invert\": true";
   }
   return text + "\n}\n";
+}
+
+void write_scene_file(const std::filesystem::path& file, Scene scene) {
+  namespace fs = std::filesystem;
+  const fs::path folder = fs::absolute(file).parent_path();
+  for (View& view : scene.views) {
+    if (!view.image.empty()) view.image = fs::absolute(view.image).lexically_proximate(folder);
+  }
+  nef::write_file(file.string(), write_scene_json(scene));
 }
 
 }  // namespace visual_hull

@@ -16,7 +16,7 @@ constexpr int kRoundsOfSeeds = 2;
 // OpenCV starts the mixtures with random numbers of the thread.
 void be_repeatable() { cv::theRNG() = cv::RNG(1); }
 
-cv::Mat object_of(const cv::Mat& seeds) { return object_above((seeds == cv::GC_FGD) | (seeds == cv::GC_PR_FGD), 127); }
+cv::Mat object_in(const cv::Mat& seeds) { return (seeds == cv::GC_FGD) | (seeds == cv::GC_PR_FGD); }
 
 cv::Mat cut_whole(const cv::Mat& picture, const cv::Rect& rectangle) {
   cv::Mat seeds(picture.size(), CV_8U, cv::Scalar(cv::GC_BGD));
@@ -24,21 +24,7 @@ cv::Mat cut_whole(const cv::Mat& picture, const cv::Rect& rectangle) {
   cv::Mat object;
   be_repeatable();
   cv::grabCut(picture, seeds, rectangle, background, object, kRoundsOfRectangle, cv::GC_INIT_WITH_RECT);
-  return object_of(seeds);
-}
-
-// From seeds: pixels are sure to be object (cv::GC_FGD) or background (GC_BGD), or are decided. Without sure pixels of
-// both kinds, what is decided stays as it was.
-cv::Mat cut_from_seeds(const cv::Mat& picture, const cv::Mat& given) {
-  cv::Mat seeds = given.clone();
-  const bool both = cv::countNonZero(seeds == cv::GC_FGD) > 0 && cv::countNonZero(seeds == cv::GC_BGD) > 0;
-  if (both) {
-    cv::Mat background;
-    cv::Mat object;
-    be_repeatable();
-    cv::grabCut(picture, seeds, {}, background, object, kRoundsOfSeeds, cv::GC_INIT_WITH_MASK);
-  }
-  return object_of(seeds);
+  return object_above(object_in(seeds), 127);
 }
 
 // Sure but for the pixels within `inward` and `outward` pixels of the outline.
@@ -56,6 +42,18 @@ cv::Mat seeds_of(const cv::Mat& mask, double inward, double outward) {
 
 }  // namespace
 
+cv::Mat cut_by_seeds(const cv::Mat& picture, const cv::Mat& given) {
+  cv::Mat seeds = given.clone();
+  const bool both = cv::countNonZero(seeds == cv::GC_FGD) > 0 && cv::countNonZero(seeds == cv::GC_BGD) > 0;
+  if (both) {
+    cv::Mat background;
+    cv::Mat object;
+    be_repeatable();
+    cv::grabCut(picture, seeds, {}, background, object, kRoundsOfSeeds, cv::GC_INIT_WITH_MASK);
+  }
+  return object_in(seeds);
+}
+
 cv::Mat cut_in_rectangle(const cv::Mat& picture, const cv::Rect& given) {
   const cv::Rect rectangle = given & cv::Rect(cv::Point(0, 0), picture.size());
   const bool outside = rectangle.area() > 0 && rectangle.area() < static_cast<int>(picture.total());
@@ -70,7 +68,7 @@ cv::Mat cut_in_rectangle(const cv::Mat& picture, const cv::Rect& given) {
                                  std::max(1, scaled(rectangle.height)));
   cv::Mat mask;
   cv::resize(cut_whole(small, small_rectangle), mask, picture.size(), 0, 0, cv::INTER_NEAREST);
-  return cut_from_seeds(picture, seeds_of(mask, 3 / scale, 3 / scale));
+  return object_above(cut_by_seeds(picture, seeds_of(mask, 3 / scale, 3 / scale)), 127);
 }
 
 }  // namespace visual_hull

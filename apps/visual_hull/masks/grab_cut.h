@@ -11,4 +11,8 @@ namespace visual_hull {
 /// cut at 800 pixels first and then in a band along that outline. 255 where the object is; the same for the same input.
 cv::Mat cut_in_rectangle(const cv::Mat& picture, const cv::Rect& rectangle);
 
+/// Decides pixels by seeds (cv::GC_FGD, GC_BGD: sure; GC_PR_FGD, GC_PR_BGD: likely, to be decided). Without sure pixels
+/// of both kinds likely ones are what they are likely to be. 255 where the object is; the same for the same input.
+cv::Mat cut_by_seeds(const cv::Mat& picture, const cv::Mat& seeds);
+
 }  // namespace visual_hull

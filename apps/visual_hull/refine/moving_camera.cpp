@@ -32,6 +32,7 @@ MovingCamera::MovingCamera(const Eigen::Matrix3d& k, const Eigen::Matrix3d& rota
 }
 
 MovingCamera::MovingCamera(const Camera& camera) {
+  require_pinhole(camera, "refining");
   const Eigen::Matrix<double, 3, 4> p = to_doubles(camera);
   Eigen::Matrix3d left = p.leftCols<3>();
   // M = K R from the QR decomposition of M turned over: with J the reversal of rows, (J M)^T = Q U gives M = (J U^T J)

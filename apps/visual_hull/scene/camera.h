@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Exact pinhole cameras.
+// Exact cameras: pinholes, and parallel projections.
 #pragma once
 
 #include <array>
@@ -20,14 +20,15 @@ struct Projection {
 };
 
 /// A projection matrix P with rational entries: x = P X, u = x1/x3 to the right, v = x2/x3 down,
-/// and x3 > 0 in front of the camera. (So P and -P are different cameras.)
+/// and x3 > 0 in front of the camera. (So P and -P are different cameras.) If the third row is (0, 0, 0, w), w > 0, the
+/// lines of sight are parallel (an orthographic or affine camera, a telecentric lens), and all of space is in front.
 class Camera {
  public:
   /// The identity: centre at the origin, looking along +z.
   Camera();
 
-  /// Throws InputError, with `name` in front, if the left 3x3 block is singular: a camera at
-  /// infinity or no camera at all.
+  /// Throws InputError, with `name` in front, if the left 3x3 block is singular and the lines of sight are not
+  /// parallel.
   Camera(std::string name, const Matrix34& matrix);
 
   /// P = K [R | t]. R need not be orthogonal to the last digit: P is what counts.
@@ -36,27 +37,43 @@ class Camera {
   [[nodiscard]] const std::string& name() const { return name_; }
   [[nodiscard]] const Matrix34& matrix() const { return matrix_; }
 
-  /// The point that P maps to zero.
-  [[nodiscard]] const Rational3& centre() const { return centre_; }
+  /// Whether the lines of sight are parallel.
+  [[nodiscard]] bool is_parallel() const { return parallel_; }
 
-  /// The sign of the determinant of the left block: -1 if the images are mirrored.
+  /// Where the camera looks: of a pinhole the normal of the planes of constant depth, else the direction of sight.
+  [[nodiscard]] const Rational3& axis() const { return axis_; }
+
+  /// The point that P maps to zero. Not for parallel lines of sight.
+  [[nodiscard]] const Rational3& centre() const;
+
+  /// The sign of the determinant of the left block: -1 if the images are mirrored. 1 for parallel lines of sight, which
+  /// do not tell from which end they are looked along.
   [[nodiscard]] int handedness() const { return handedness_; }
 
   [[nodiscard]] Projection project(const Rational3& point) const;
 
-  /// x3 = m3 . X + p34, positive in front.
+  /// How far along the axis a point is: x3 = m3 . X + p34, positive in front; for parallel lines of sight axis . X, of
+  /// either sign.
   [[nodiscard]] Rational depth(const Rational3& point) const;
 
-  /// The direction in which image point (u, v) is seen from the centre (of depth 1).
+  /// The direction in which image point (u, v) is seen: from the centre to depth 1, or the axis.
   [[nodiscard]] Rational3 ray(const Point2& image_point) const;
+
+  /// The point of a depth that is seen at an image point.
+  [[nodiscard]] Rational3 sight_point(const Point2& image_point, const Rational& depth) const;
 
  private:
   std::string name_;
   Matrix34 matrix_;
-  Matrix3 inverse_;  ///< of the left block
+  bool parallel_ = false;
+  Rational3 axis_;
+  Matrix3 inverse_;  ///< of the left block, with the axis as its third row
   Rational3 centre_;
   int handedness_ = 1;
 };
+
+/// Throws InputError naming the view if the lines of sight are parallel: `what` is for pinhole cameras only.
+void require_pinhole(const Camera& camera, const std::string& what);
 
 /// A plane a x + b y + c z + d = 0 with rational coefficients.
 struct RationalPlane {

@@ -54,7 +54,27 @@ std::string ignored_text(const std::vector<std::string>& names) {
 
 }  // namespace
 
+namespace {
+
+Sight parallel_sight_of(const Camera& camera) {
+  const Eigen::Matrix<double, 3, 4> p = to_doubles(camera);
+  const Rational3 at = camera.sight_point(Point2::from_doubles(0, 0), Rational(0));
+  Sight sight;
+  sight.parallel = true;
+  for (int i = 0; i < 3; ++i) {
+    sight.centre[i] = nef::nearest_double(at[static_cast<std::size_t>(i)]);
+    sight.axis[i] = nef::nearest_double(camera.axis()[static_cast<std::size_t>(i)]);
+  }
+  sight.axis.normalize();
+  sight.focal_x = p.row(0).head<3>().norm() / p(2, 3);
+  sight.focal_y = p.row(1).head<3>().norm() / p(2, 3);
+  return sight;
+}
+
+}  // namespace
+
 Sight sight_of(const Camera& camera) {
+  if (camera.is_parallel()) return parallel_sight_of(camera);
   const Eigen::Matrix<double, 3, 4> p = to_doubles(camera);
   const double depth = p.row(2).head<3>().norm();
   const Eigen::Vector3d m1 = p.row(0).head<3>() / depth;
@@ -73,6 +93,7 @@ std::optional<Eigen::Vector3d> common_point(const std::vector<Sight>& sights) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   Eigen::Vector3d right = Eigen::Vector3d::Zero();
   for (const Sight& s : sights) {
+    if (s.parallel) continue;
     const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - s.axis * s.axis.transpose();
     sum += across;
     right += across * s.centre;
@@ -85,13 +106,17 @@ std::optional<Eigen::Vector3d> common_point(const std::vector<Sight>& sights) {
 std::string understood(const Scene& scene) {
   std::vector<Sight> sights;
   Range focal;
+  Range scale;
+  std::size_t parallel = 0;
   std::size_t mirrored = 0;
   bool pixels = false;
   for (const View& view : scene.views) {
     sights.push_back(sight_of(view.camera));
     pixels = pixels || !view.polygons;
-    focal.add(sights.back().focal_x);
-    focal.add(sights.back().focal_y);
+    Range& range = sights.back().parallel ? scale : focal;
+    range.add(sights.back().focal_x);
+    range.add(sights.back().focal_y);
+    if (sights.back().parallel) ++parallel;
     if (view.camera.handedness() < 0) ++mirrored;
   }
   std::string line = fmt::format("{} view{} from {}", sights.size(), sights.size() == 1 ? "" : "s", scene.format);
@@ -100,18 +125,24 @@ std::string understood(const Scene& scene) {
     line += scene.origin == PixelOrigin::kCorner ? "; (0, 0) is the corner of a pixel"
                                                  : "; (0, 0) is the centre of a pixel";
   }
-  line += fmt::format("; focal length {}{}", focal.text(), pixels ? " pixels" : "");
+  if (parallel < sights.size()) line += fmt::format("; focal length {}{}", focal.text(), pixels ? " pixels" : "");
+  if (parallel > 0) {
+    line += fmt::format("; {} with parallel lines of sight, {}{} a unit of length",
+                        parallel == sights.size() ? "all" : std::to_string(parallel), scale.text(),
+                        pixels ? " pixels" : "");
+  }
   if (const auto point = common_point(sights)) {
     Range distance;
     std::size_t away = 0;
     for (const Sight& s : sights) {
+      if (s.parallel) continue;
       distance.add((*point - s.centre).norm());
       if ((*point - s.centre).dot(s.axis) <= 0) ++away;
     }
     line += fmt::format("; the cameras look at {} from {} away", text(*point, distance.high), distance.text());
     if (away > 0)
       line += fmt::format("; {} of them look AWAY from it (matrices of the other sign, or other axes?)", away);
-  } else if (sights.size() > 1) {
+  } else if (sights.size() > 1 && parallel == 0) {
     line += "; the cameras look in one direction";
   }
   if (mirrored > 0 && mirrored < sights.size()) {
@@ -140,9 +171,12 @@ std::vector<std::string> view_lines(const Scene& scene, const std::vector<std::f
     const std::string source =
         view.polygons ? fmt::format("{} polygons", view.polygons->size())
                       : (i < images.size() && !images[i].empty() ? images[i].string() : std::string("no image"));
-    std::string line = fmt::format("{}: {}; focal length {:.5g} x {:.5g}, centre {}", view.name, source, s.focal_x,
-                                   s.focal_y, text(s.centre, s.centre.norm()));
-    if (point && (*point - s.centre).norm() > 0) {
+    std::string line = s.parallel
+                           ? fmt::format("{}: {}; parallel lines of sight along {}, {:.5g} x {:.5g} a unit of length",
+                                         view.name, source, text(s.axis, 1), s.focal_x, s.focal_y)
+                           : fmt::format("{}: {}; focal length {:.5g} x {:.5g}, centre {}", view.name, source,
+                                         s.focal_x, s.focal_y, text(s.centre, s.centre.norm()));
+    if (point && !s.parallel && (*point - s.centre).norm() > 0) {
       const double cosine = (*point - s.centre).normalized().dot(s.axis);
       line +=
           fmt::format(", {:.1f} degrees off the common point", std::acos(std::clamp(cosine, -1.0, 1.0)) * 180 / M_PI);

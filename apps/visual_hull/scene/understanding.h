@@ -17,10 +17,13 @@ struct Sight {
   Eigen::Vector3d centre;
   Eigen::Vector3d axis;             ///< of length 1
   double focal_x = 0, focal_y = 0;  ///< in units of the image: pixels
+  bool parallel = false;  ///< lines of sight are parallel: the centre is a point that is seen at (0, 0), and in place
+                          ///< of focal lengths there are pixels a unit of length
 };
 Sight sight_of(const Camera& camera);
 
-/// The point with the least sum of squared distances to all optical axes; nothing if they are (nearly) parallel.
+/// The point with the least sum of squared distances to the optical axes of all pinhole cameras; nothing if these are
+/// (nearly) parallel.
 std::optional<Eigen::Vector3d> common_point(const std::vector<Sight>& sights);
 
 /// One line: how many views, from what format, which pixel has whole coordinates, focal lengths, where the cameras look

@@ -69,7 +69,7 @@ std::vector<Indices> views_without_common_point(const std::vector<ComparedView>&
   Cones cones(views, box, monitor);
   std::vector<Indices> confirmed;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    const bool behind = sgn(depth_range(*views[i].camera, box).farthest) <= 0;
+    const bool behind = !views[i].camera->is_parallel() && sgn(depth_range(*views[i].camera, box).farthest) <= 0;
     if (behind && confirmed.size() < most) confirmed.push_back({i});
   }
   if (!confirmed.empty()) return confirmed;

@@ -251,12 +251,25 @@ class InsideCheck {
     return std::nullopt;
   }
 
+  // Where a line of sight begins: the centre, or a point before the hull.
+  Rational3 start_of(const Point2& point) const {
+    if (!camera_.is_parallel()) return camera_.centre();
+    Rational nearest;
+    bool first = true;
+    for (const nef::VertexId v : complex_.vertex_ids()) {
+      const Rational depth = camera_.depth(complex_.points.rational(nef::point_of(v)));
+      if (first || depth < nearest) nearest = depth;
+      first = false;
+    }
+    return camera_.sight_point(point, nearest - 1);
+  }
+
   std::string covered_hole() const {
     for (std::size_t r = 0; r < silhouette_.rings.size(); ++r) {
       if (silhouette_.depth[r] % 2 == 0) continue;
       const std::optional<Point2> point = point_of_hole(r);
       if (!point) continue;  // 200 halvings do not fail on a ring with area
-      if (nef::shoot_ray(hull_, camera_.centre(), camera_.ray(*point), {}, monitor_)) {
+      if (nef::shoot_ray(hull_, start_of(*point), camera_.ray(*point), {}, monitor_)) {
         return "hole " + std::to_string(r + 1) + " of the silhouette is covered by the hull";
       }
     }

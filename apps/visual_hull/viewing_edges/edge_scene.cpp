@@ -41,7 +41,8 @@ std::unique_ptr<const EdgeScene> EdgeScene::make(const std::vector<DirectView>& 
   std::atomic<bool> good = true;
   nef::parallel_for(inputs.size(), monitor, [&](std::size_t i, const nef::Monitor&) {
     const DirectView& input = inputs[i];
-    if (good && sgn(depth_range(*input.camera, box).nearest) > 0) {
+    const bool in_front = input.camera->is_parallel() || sgn(depth_range(*input.camera, box).nearest) > 0;
+    if (good && in_front) {
       auto view = EdgeView::make(*input.camera, *input.silhouette, static_cast<std::uint32_t>(i), first[i], reach,
                                  scene->edges);
       if (view) views[i].emplace(std::move(*view));

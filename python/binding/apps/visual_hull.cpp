@@ -8,10 +8,14 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "apps/view/image.h"
+#include "apps/visual_hull/calibrate/board_sheet.h"
+#include "apps/visual_hull/calibrate/calibrate.h"
 #include "apps/visual_hull/formats/read_scene.h"
+#include "apps/visual_hull/formats/write_scene.h"
 #include "apps/visual_hull/masks/cut_out.h"
 #include "apps/visual_hull/scene/images.h"
 #include "binding/base/bindings.h"
@@ -47,19 +51,31 @@ void write_mask(const Mask& mask, const std::string& path) {
   write_file(path, view::png_bytes(image));
 }
 
-visual_hull::Options options_of(double tolerance, bool half_pixels, bool unknown_beyond, const py::object& box,
-                                bool verify, unsigned threads) {
+visual_hull::WorldBox box_of(const py::object& box) {
+  const py::sequence corners = box;
+  if (corners.size() != 2) throw py::value_error("a box needs two corners");
+  return {to_triple(corners[0], "a corner"), to_triple(corners[1], "a corner")};
+}
+
+// Of the keywords that nef/visual_hull.py lists; each is there.
+visual_hull::Options options_of(const py::dict& given) {
   visual_hull::Options options;
-  options.silhouette.simplify.tolerance = tolerance;
-  if (half_pixels) options.origin = visual_hull::PixelOrigin::kCorner;
-  options.silhouette.border = unknown_beyond ? visual_hull::Border::kUnknown : visual_hull::Border::kOutside;
-  options.verify = verify;
-  options.monitor = Monitor().on_threads(threads);
-  if (!box.is_none()) {
-    const py::sequence corners = box;
-    if (corners.size() != 2) throw py::value_error("a box needs two corners");
-    options.box = visual_hull::WorldBox{to_triple(corners[0], "a corner"), to_triple(corners[1], "a corner")};
-  }
+  const auto flag = [&given](const char* key) { return given[key].cast<bool>(); };
+  options.silhouette.simplify = {given["tolerance"].cast<double>(), flag("outer")};
+  options.silhouette.min_area = given["min_area"].cast<double>();
+  options.silhouette.border = flag("unknown_beyond") ? visual_hull::Border::kUnknown : visual_hull::Border::kOutside;
+  if (flag("half_pixels")) options.origin = visual_hull::PixelOrigin::kCorner;
+  if (!given["box"].is_none()) options.box = box_of(given["box"]);
+  if (!given["images"].is_none()) options.images = given["images"].cast<std::string>();
+  if (!given["mask"].is_none()) options.mask = visual_hull::parse_mask_method(given["mask"].cast<std::string>());
+  if (!given["at_least"].is_none()) options.at_least = given["at_least"].cast<std::size_t>();
+  options.repair_masks = flag("repair_masks");
+  options.refine = flag("refine");
+  options.suspects = flag("suspects");
+  options.drop_suspects = flag("drop_suspects");
+  options.largest = flag("largest");
+  options.verify = flag("verify") && !options.at_least;
+  options.monitor = Monitor().on_threads(given["threads"].cast<unsigned>());
   return options;
 }
 
@@ -77,55 +93,6 @@ py::tuple view_tuple(const visual_hull::ViewResult& view) {
   }
   return py::make_tuple(view.name, view.image.string(), view.silhouette.contours, view.silhouette.holes,
                         view.silhouette.cut_by_frame, inside, difference, area);
-}
-
-py::dict compute(const visual_hull::Scene& scene, const std::string& folder, const visual_hull::Options& options,
-                 const py::object& progress) {
-  const ProgressFunction told(progress);
-  const visual_hull::Result made = call(kSmallCall, [=](const Monitor& monitor) {
-    const visual_hull::Progress forward = [&](visual_hull::Phase phase, const std::string& name, std::size_t done,
-                                              std::size_t total) {
-      told(monitor, std::string(visual_hull::phase_name(phase)), name, done, total);
-    };
-    visual_hull::Options watched = options;
-    watched.monitor = monitor.on_threads(options.monitor.threads());
-    return visual_hull::compute(scene, folder, watched, forward);
-  });
-  py::dict result;
-  result["hull"] = made.hull;
-  result["box"] = py::make_tuple(from_triple(made.box.low), from_triple(made.box.high));
-  result["vanished"] =
-      made.vanished ? py::object(py::make_tuple(made.vanished->view, made.vanished->reason)) : py::none();
-  py::list views;
-  for (const visual_hull::ViewResult& view : made.views) views.append(view_tuple(view));
-  result["views"] = views;
-  result["notes"] = made.notes;
-  return result;
-}
-
-py::dict from_file(const std::string& path, const visual_hull::Options& options, const py::object& progress) {
-  const std::filesystem::path file(path);
-  return compute(visual_hull::read_scene(file), visual_hull::scene_folder(file).string(), options, progress);
-}
-
-py::dict from_views(const std::vector<std::string>& names, const std::vector<std::string>& images,
-                    const py::list& matrices, const std::string& folder, const visual_hull::Options& options,
-                    const py::object& progress) {
-  visual_hull::Scene scene;
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    visual_hull::View& view = scene.views.emplace_back();
-    view.name = names[i];
-    view.image = images.at(i);
-    view.camera = visual_hull::Camera(names[i], matrix_of(matrices[i]));
-  }
-  return compute(scene, folder, options, progress);
-}
-
-cv::Mat mask_of(const Mask& mask) {
-  if (mask.ndim() != 2 || mask.size() == 0) throw py::value_error("a mask is an array of shape (H, W)");
-  cv::Mat result(static_cast<int>(mask.shape(0)), static_cast<int>(mask.shape(1)), CV_8UC1);
-  std::copy(mask.data(), mask.data() + mask.size(), result.begin<std::uint8_t>());
-  return result;
 }
 
 py::list doubles_of(const visual_hull::Camera& camera) {
@@ -159,6 +126,83 @@ py::dict refinement_dict(const visual_hull::refine::Refinement& r) {
   }
   result["views"] = views;
   result["cameras"] = cameras;
+  return result;
+}
+
+// Names of the views that disagree with the others, those that were left out first.
+py::list suspects_of(const visual_hull::Result& made) {
+  py::list names;
+  for (const visual_hull::Dropped& dropped : made.dropped) names.append(dropped.view);
+  if (made.consistency && made.consistency->guilty) names.append(made.views[*made.consistency->guilty].name);
+  return names;
+}
+
+py::dict compute(const visual_hull::Scene& scene, const std::string& folder, const visual_hull::Options& options,
+                 const py::object& progress) {
+  const ProgressFunction told(progress);
+  const visual_hull::Result made = call(kSmallCall, [=](const Monitor& monitor) {
+    const visual_hull::Progress forward = [&](visual_hull::Phase phase, const std::string& name, std::size_t done,
+                                              std::size_t total) {
+      told(monitor, std::string(visual_hull::phase_name(phase)), name, done, total);
+    };
+    visual_hull::Options watched = options;
+    watched.monitor = monitor.on_threads(options.monitor.threads());
+    return visual_hull::compute(scene, folder, watched, forward);
+  });
+  py::dict result;
+  result["hull"] = made.hull;
+  result["box"] = py::make_tuple(from_triple(made.box.low), from_triple(made.box.high));
+  result["vanished"] =
+      made.vanished ? py::object(py::make_tuple(made.vanished->view, made.vanished->reason)) : py::none();
+  py::list views;
+  for (const visual_hull::ViewResult& view : made.views) views.append(view_tuple(view));
+  result["views"] = views;
+  result["notes"] = made.notes;
+  result["pieces"] = made.pieces;
+  result["suspects"] = suspects_of(made);
+  result["refinement"] = made.refinement ? py::object(refinement_dict(*made.refinement)) : py::object(py::none());
+  return result;
+}
+
+// (K, coefficients)
+visual_hull::Distortion distortion_of(py::handle lens) {
+  const py::sequence parts = py::reinterpret_borrow<py::sequence>(lens);
+  if (parts.size() != 2) throw py::value_error("a lens is a matrix K of shape (3, 3) and its coefficients");
+  visual_hull::Distortion result;
+  const py::sequence rows = parts[0];
+  if (rows.size() != 3) throw py::value_error("K is a matrix of shape (3, 3)");
+  for (std::size_t i = 0; i < 3; ++i) result.intrinsics[i] = to_triple(rows[i], "a row of K");
+  result.coefficients = parts[1].cast<std::vector<double>>();
+  constexpr std::array<std::size_t, 5> kCounts{4, 5, 8, 12, 14};
+  if (std::find(kCounts.begin(), kCounts.end(), result.coefficients.size()) == kCounts.end()) {
+    throw py::value_error("a lens has 4, 5, 8, 12 or 14 coefficients, as OpenCV has them");
+  }
+  return result;
+}
+
+py::dict from_file(const std::string& path, const visual_hull::Options& options, const py::object& progress) {
+  const std::filesystem::path file(path);
+  return compute(visual_hull::read_scene(file), visual_hull::scene_folder(file).string(), options, progress);
+}
+
+py::dict from_views(const std::vector<std::string>& names, const std::vector<std::string>& images,
+                    const py::list& matrices, const py::object& lenses, const std::string& folder,
+                    const visual_hull::Options& options, const py::object& progress) {
+  visual_hull::Scene scene;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    visual_hull::View& view = scene.views.emplace_back();
+    view.name = names[i];
+    view.image = images.at(i);
+    view.camera = visual_hull::Camera(names[i], matrix_of(matrices[i]));
+    if (!lenses.is_none()) view.distortion = distortion_of(py::list(lenses)[i]);
+  }
+  return compute(scene, folder, options, progress);
+}
+
+cv::Mat mask_of(const Mask& mask) {
+  if (mask.ndim() != 2 || mask.size() == 0) throw py::value_error("a mask is an array of shape (H, W)");
+  cv::Mat result(static_cast<int>(mask.shape(0)), static_cast<int>(mask.shape(1)), CV_8UC1);
+  std::copy(mask.data(), mask.data() + mask.size(), result.begin<std::uint8_t>());
   return result;
 }
 
@@ -213,6 +257,47 @@ py::tuple masks(const std::vector<std::string>& photographs, const std::string& 
   return py::make_tuple(arrays, made.quality, made.chosen, made.notes);
 }
 
+py::bytes board(const std::string& description, const std::string& extension) {
+  return py::bytes(visual_hull::board_file(visual_hull::parse_board(description), extension));
+}
+
+py::list calibrated_views(const visual_hull::Calibration& made, const std::vector<visual_hull::CalibratedView>& views) {
+  py::list result;
+  for (const visual_hull::CalibratedView& view : views) {
+    const bool good = view.refused.empty();
+    const std::string name = view.photograph.string();
+    const py::object camera =
+        good ? py::object(doubles_of(visual_hull::make_view(name, made.lens.lens, view.pose).camera))
+             : py::object(py::none());
+    result.append(py::make_tuple(name, view.corners, good ? py::object(py::float_(view.error_px)) : py::none(), camera,
+                                 good ? py::object(py::none()) : py::object(py::str(view.refused))));
+  }
+  return result;
+}
+
+py::dict calibrate(const std::vector<std::string>& photographs, const std::string& board,
+                   const std::vector<std::string>& lens, const std::string& scene, unsigned threads) {
+  const visual_hull::Calibration made = call(kSmallCall, [=](const Monitor& monitor) {
+    visual_hull::Calibration found =
+        visual_hull::calibrate({photographs.begin(), photographs.end()}, visual_hull::parse_board(board),
+                               {lens.begin(), lens.end()}, monitor.on_threads(threads));
+    if (!scene.empty()) visual_hull::write_scene_file(scene, found.scene());
+    return found;
+  });
+  const visual_hull::BoardLens& found = made.lens;
+  py::dict result;
+  result["focal"] = py::make_tuple(found.lens.fx, found.lens.fy);
+  result["focal_deviation"] = found.focal_share;
+  result["principal_point"] = py::make_tuple(found.lens.cx, found.lens.cy);
+  result["principal_point_assumed"] = found.centred;
+  result["distortion"] = found.lens.distortion;
+  result["error"] = made.error_px;
+  result["views"] = calibrated_views(made, made.views);
+  result["lens_views"] = calibrated_views(made, made.lens_views);
+  result["notes"] = made.notes;
+  return result;
+}
+
 void define_module(py::module_& m) {
   m.doc() = "The core of the package nef.visual_hull; see there.";
   py::module_::import("nef._nef");
@@ -222,6 +307,8 @@ void define_module(py::module_& m) {
   m.def("from_views", &from_views);
   m.def("refine", &refine);
   m.def("masks", &masks);
+  m.def("board", &board);
+  m.def("calibrate", &calibrate);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "nef/base/error.h"
 #include "nef/polyhedron.h"
+#include "nef/query/measures/approximate_volume.h"
 #include "tests/visual_hull/helpers.h"
 
 namespace visual_hull {
@@ -234,6 +235,31 @@ TEST_CASE("The view at which the hull vanishes is named") {
   REQUIRE(flat.vanished.has_value());
   CHECK_FALSE(flat.hull.is_empty());
   CHECK(flat.vanished->view == "high");
+}
+
+TEST_CASE("Pieces of a hull are told, and the largest is kept alone if that is asked for") {
+  const std::vector<Rational3> large = box_corners({-10, -10, -10}, {10, 10, 10});
+  const std::vector<Rational3> small = box_corners({-1, 2, 30}, {1, 4, 34});
+  Views one;
+  Views both;
+  for (const Rational3& from : {Rational3{500, 0, 0}, Rational3{0, 500, 0}}) {
+    one.push_back(view_of(towards_origin(from), large));
+    both.push_back(one.back());
+    both.back().second.push_back(view_of(towards_origin(from), small).second[0]);
+  }
+  const Result alone = compute(scene_of(one, cube(100)), {}, {});
+  CHECK(alone.pieces.empty());
+  const Result two = compute(scene_of(both, cube(100)), {}, {});
+  REQUIRE(two.pieces.size() == 2);
+  CHECK(two.pieces[0] == Approx(nef::approximate_volume(alone.hull).value));
+  CHECK(two.pieces[0] + two.pieces[1] == Approx(nef::approximate_volume(two.hull).value));
+  Options options;
+  options.largest = true;
+  options.verify = true;
+  const Result kept = compute(scene_of(both, cube(100)), {}, options);
+  CHECK(nef::equal(kept.hull, alone.hull));
+  CHECK(kept.pieces == two.pieces);
+  CHECK(kept.views[0].verification->inside);
 }
 
 TEST_CASE("Without a box it is found, and changes nothing") {

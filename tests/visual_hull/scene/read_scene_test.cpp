@@ -227,6 +227,22 @@ TEST_CASE("OpenCV's FileStorage: the calibration sample, lists, numbered nodes, 
   CHECK(chosen.views[0].name == "9");
   check_camera(chosen.views[1].camera);
 
+  // One word with a number in it; not if there are two of them, and not poses.
+  const auto matrix = [](const std::string& name, const std::string& data) {
+    return name + ": !!opencv-matrix\n   rows: 3\n   cols: 4\n   dt: d\n   data: " + data + "\n";
+  };
+  const std::string viff = matrix("viff010_matrix", twelve) + matrix("viff009_matrix", twelve);
+  const Scene counted = read_scene(s.write("viff.yml", "%YAML:1.0\n---\n" + viff));
+  REQUIRE(counted.views.size() == 2);
+  CHECK(counted.views[0].name == "009");
+  check_camera(counted.views[1].camera);
+  CHECK_THAT(refusal(s.write("two.yml", "%YAML:1.0\n---\n" + viff + matrix("other1_matrix", twelve))),
+             Contains("--matrices"));
+  CHECK_THAT(refusal(s.write("pose.yml", "%YAML:1.0\n---\n" + matrix("view1_matrix",
+                                                                     "[1., 0., 0., 5., 0., 1., 0., 5., "
+                                                                     "0., 0., 1., 5.]"))),
+             Contains("--matrices"));
+
   CHECK_THAT(refusal(s.write("bad.yml", "%YAML:1.0\n---\na: [1, 2\nb: }\n")), Contains("bad.yml"));
   CHECK_THAT(refusal(s.write("few.yml", "%YAML:1.0\n---\nP0: [1., 2.]\n")), Contains("12 or 16 numbers are needed"));
 }

@@ -162,7 +162,7 @@ TEST_CASE("Malformed scenes are refused in one line that says where") {
   CHECK_THAT(refusal_of_scene(s, "c.txt", "# nothing\n"), Contains("there is no camera"));
   CHECK_THAT(refusal_of_scene(s, "w.txt", "a 1 2 3\nb 4 5 6\n"), Contains("w.txt, line 1"));
   CHECK_THAT(refusal_of_scene(s, "n.txt", "a 1 0 0 0 0 1 0 0 0 0 1 nan\n"), Contains("line 1: 'nan' is not a number"));
-  CHECK_THAT(refusal_of_scene(s, "s.txt", "flat 1 0 0 0 0 1 0 0 0 0 0 1\n"),
+  CHECK_THAT(refusal_of_scene(s, "s.txt", "flat 1 0 0 0 2 0 0 0 0 0 1 1\n"),
              Contains("view flat: the matrix is singular"));
   CHECK_THAT(refusal_of_scene(s, "m.txt", "3\na 1 0 0 0 0 1 0 0 0 0 1 0\n"),
              Contains("announces 3 views, but there are 1"));

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The smallest model is fitted from several focal lengths, since photographs of one tilt leave little to start from;
+// each larger one begins where the last one that was taken ended. What OpenCV reports as standard deviations are those
+// of the normal equations at the end, so parameters that the boards leave open have large ones.
+#include "apps/visual_hull/calibrate/board_lens.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+
+namespace visual_hull {
+namespace {
+
+constexpr double kSignificant = 10;     // F, for each parameter
+constexpr double kCentreShare = 0.005;  // of the longer side: what a principal point may be off by
+constexpr double kAspectShare = 0.005;  // of a focal length
+constexpr double kAlike = 1.5;          // times the error of the better pose
+constexpr double kMostAlike = 0.05;     // pixels, where both are small
+constexpr double kOtherTilt = 0.03;     // radians between poses that differ
+
+/// A model: what is held, and how many parameters are free.
+struct LensChoice {
+  int flags;
+  int free;
+  bool centred;
+};
+
+constexpr int kNoTangent = cv::CALIB_ZERO_TANGENT_DIST;
+constexpr std::array<LensChoice, 4> kLensChoices{{
+    {cv::CALIB_FIX_PRINCIPAL_POINT | cv::CALIB_FIX_ASPECT_RATIO | kNoTangent | cv::CALIB_FIX_K2 | cv::CALIB_FIX_K3, 2,
+     true},
+    {cv::CALIB_FIX_PRINCIPAL_POINT | cv::CALIB_FIX_ASPECT_RATIO | kNoTangent | cv::CALIB_FIX_K3, 3, true},
+    {cv::CALIB_FIX_ASPECT_RATIO | kNoTangent | cv::CALIB_FIX_K3, 5, false},
+    {0, 9, false},
+}};
+
+/// A fit of one model.
+struct LensFit {
+  cv::Mat k = cv::Mat::eye(3, 3, CV_64F);
+  cv::Mat distortion = cv::Mat::zeros(1, 5, CV_64F);
+  cv::Mat deviations;
+  double error = HUGE_VAL;
+
+  [[nodiscard]] double deviation(int parameter) const { return deviations.at<double>(parameter); }
+};
+
+class LensFitting {
+ public:
+  LensFitting(std::span<const SeenBoard* const> views, const ImageSize& size) : size_(size.width, size.height) {
+    for (const SeenBoard* view : views) {
+      corners_.emplace_back(view->corners.begin(), view->corners.end());
+      points_.emplace_back(view->points.begin(), view->points.end());
+      count_ += view->points.size();
+    }
+  }
+
+  [[nodiscard]] LensFit fitted(const LensChoice& model, const LensFit& start) const {
+    LensFit fit{start.k.clone(), start.distortion.clone(), {}, HUGE_VAL};
+    try {
+      fit.error =
+          cv::calibrateCamera(corners_, points_, size_, fit.k, fit.distortion, cv::noArray(), cv::noArray(),
+                              fit.deviations, cv::noArray(), cv::noArray(), model.flags | cv::CALIB_USE_INTRINSIC_GUESS,
+                              {cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 1e-10});
+    } catch (const cv::Exception&) {  // a step to nowhere: this start is none
+    }
+    const double f = fit.k.at<double>(0, 0);
+    if (!std::isfinite(fit.error) || !std::isfinite(f) || f <= 0) fit.error = HUGE_VAL;
+    return fit;
+  }
+
+  [[nodiscard]] LensFit start(double focal) const {
+    LensFit fit;
+    fit.k.at<double>(0, 0) = fit.k.at<double>(1, 1) = focal;
+    fit.k.at<double>(0, 2) = (size_.width - 1) / 2.0;
+    fit.k.at<double>(1, 2) = (size_.height - 1) / 2.0;
+    return fit;
+  }
+
+  // Whether a larger model explains more than chance would.
+  [[nodiscard]] bool significant(const LensFit& small, const LensChoice& small_model, const LensFit& large,
+                                 const LensChoice& large_model) const {
+    const double n = static_cast<double>(count_);
+    const double spare = 2 * n - 6 * static_cast<double>(points_.size()) - large_model.free;
+    if (!(spare > 0) || !std::isfinite(large.error)) return false;
+    const double rest = n * large.error * large.error;
+    const double gain = n * small.error * small.error - rest;
+    return gain / (large_model.free - small_model.free) > kSignificant * rest / spare;
+  }
+
+  // Whether the boards say where the parameters of a model are.
+  [[nodiscard]] bool determined(const LensFit& fit, const LensChoice& model) const {
+    const double longer = std::max(size_.width, size_.height);
+    const bool centre = model.centred || std::max(fit.deviation(2), fit.deviation(3)) < kCentreShare * longer;
+    const bool aspect = (model.flags & cv::CALIB_FIX_ASPECT_RATIO) != 0 ||
+                        std::max(fit.deviation(0), fit.deviation(1)) < kAspectShare * fit.k.at<double>(0, 0);
+    return centre && aspect;
+  }
+
+  [[nodiscard]] cv::Size size() const { return size_; }
+
+ private:
+  cv::Size size_;
+  std::size_t count_ = 0;
+  std::vector<std::vector<cv::Point3f>> corners_;  // OpenCV wants floats: a millionth of the board
+  std::vector<std::vector<cv::Point2f>> points_;
+};
+
+Eigen::Matrix3d rotation_of_vector(const cv::Mat& rotation_vector) {
+  cv::Mat r;
+  cv::Rodrigues(rotation_vector, r);
+  Eigen::Matrix3d result;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) result(i, j) = r.at<double>(i, j);
+  }
+  return result;
+}
+
+double corner_error(const SeenBoard& view, const cv::Mat& k, const std::vector<double>& distortion, const cv::Mat& r,
+                    const cv::Mat& t) {
+  std::vector<cv::Point2d> seen;
+  cv::projectPoints(view.corners, r, t, k, distortion, seen);
+  double sum = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const cv::Point2d d = seen[i] - view.points[i];
+    sum += d.dot(d);
+  }
+  return std::sqrt(sum / static_cast<double>(seen.size()));
+}
+
+}  // namespace
+
+BoardLens fit_lens(std::span<const SeenBoard* const> views, const ImageSize& size) {
+  const LensFitting fitting(views, size);
+  LensFit best;
+  for (const double focal : {0.8, 1.2, 2.5, 6.0}) {
+    LensFit fit = fitting.fitted(kLensChoices[0], fitting.start(focal * std::max(size.width, size.height)));
+    if (fit.error < best.error) best = std::move(fit);
+  }
+  BoardLens result;
+  if (!std::isfinite(best.error)) {
+    result.error_px = HUGE_VAL;
+    return result;
+  }
+  const LensChoice* taken = kLensChoices.data();
+  for (const LensChoice& model : std::span(kLensChoices).subspan(1)) {
+    LensFit fit = fitting.fitted(model, best);
+    if (!fitting.significant(best, *taken, fit, model) || !fitting.determined(fit, model)) continue;
+    best = std::move(fit);
+    taken = &model;
+  }
+  result.error_px = best.error;
+  result.centred = taken->centred;
+  Lens& lens = result.lens;
+  lens.fx = best.k.at<double>(0, 0);
+  lens.fy = best.k.at<double>(1, 1);
+  lens.cx = best.k.at<double>(0, 2);
+  lens.cy = best.k.at<double>(1, 2);
+  lens.distortion.assign(best.distortion.begin<double>(), best.distortion.end<double>());
+  lens.size = size;
+  result.focal_share = std::max(best.deviation(0), best.deviation(1)) / lens.fx;
+  return result;
+}
+
+std::optional<BoardPose> pose_by_board(const SeenBoard& view, const Lens& lens) {
+  const cv::Mat k = (cv::Mat_<double>(3, 3) << lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1);
+  std::vector<cv::Mat> rotations;
+  std::vector<cv::Mat> shifts;
+  try {
+    cv::solvePnPGeneric(view.corners, view.points, k, lens.distortion, rotations, shifts, false, cv::SOLVEPNP_IPPE);
+  } catch (const cv::Exception&) {
+    return std::nullopt;
+  }
+  std::vector<BoardPose> poses;
+  for (std::size_t i = 0; i < rotations.size(); ++i) {
+    cv::solvePnPRefineLM(view.corners, view.points, k, lens.distortion, rotations[i], shifts[i]);
+    const double* const t = shifts[i].ptr<double>();
+    BoardPose found{{rotation_of_vector(rotations[i]), {t[0], t[1], t[2]}},
+                    corner_error(view, k, lens.distortion, rotations[i], shifts[i]),
+                    false};
+    if (std::isfinite(found.error_px) && t[2] > 0) poses.push_back(found);
+  }
+  if (poses.empty()) return std::nullopt;
+  std::sort(poses.begin(), poses.end(), [](const auto& a, const auto& b) { return a.error_px < b.error_px; });
+  BoardPose& best = poses.front();
+  for (const BoardPose& other : poses) {
+    const double cosine = ((best.pose.rotation.transpose() * other.pose.rotation).trace() - 1) / 2;
+    const bool differs = cosine < std::cos(kOtherTilt);
+    if (differs && other.error_px < kAlike * best.error_px + kMostAlike) best.ambiguous = true;
+  }
+  return best;
+}
+
+}  // namespace visual_hull

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The lens of a camera, and where it stood, by corners of a board.
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "apps/visual_hull/calibrate/find_board.h"
+#include "apps/visual_hull/scene/pose.h"
+
+namespace visual_hull {
+
+/// A lens as boards determine it.
+struct BoardLens {
+  Lens lens;
+  double error_px = 0;     ///< root mean square distance between corners as seen and as this lens sees them
+  double focal_share = 0;  ///< standard deviation of the focal length, as a share of it
+  bool centred = true;     ///< the principal point is the middle of the image, because the boards do not determine it
+};
+
+/// The lens that explains boards best [Zhang 2000]. From few parameters to many (focal length and k1; k2; principal
+/// point; two focal lengths, k3 and tangential distortion) the largest model is taken whose parameters the boards
+/// determine (principal point to half a percent of the image's longer side) and that explains them significantly better
+/// (F test). Boards of one tilt do not determine the principal point, whichever way they are turned in their plane.
+/// `views`: at least one, each with six corners at least that do not lie on a line. O(corners) for each of some hundred
+/// steps.
+BoardLens fit_lens(std::span<const SeenBoard* const> views, const ImageSize& size);
+
+/// A pose, and how well it explains a board.
+struct BoardPose {
+  Pose pose;
+  double error_px = 0;     ///< root mean square
+  bool ambiguous = false;  ///< another pose, of the other tilt, explains the corners nearly as well
+};
+
+/// The pose of a camera by the corners of a board [Collins, Bartoli 2014], then by least squares. Nothing if there is
+/// none.
+std::optional<BoardPose> pose_by_board(const SeenBoard& view, const Lens& lens);
+
+}  // namespace visual_hull

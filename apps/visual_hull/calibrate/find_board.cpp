@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/visual_hull/calibrate/find_board.h"
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+
+#include "apps/visual_hull/calibrate/board_definition.h"
+
+namespace visual_hull {
+namespace {
+
+constexpr int kSmallPicture = 2000;  // pixels along its longer side
+
+}  // namespace
+
+SeenBoard find_board(const cv::Mat& picture, const Board& board) {
+  const auto definition = board_definition(board);
+  cv::Mat gray;
+  cv::cvtColor(picture, gray, cv::COLOR_BGR2GRAY);
+  // Cells of markers of a few pixels are read better from a larger copy, and their corners lie better there.
+  const double scale = std::max(gray.cols, gray.rows) < kSmallPicture ? 2 : 1;
+  if (scale > 1) cv::resize(gray, gray, cv::Size(), scale, scale, cv::INTER_CUBIC);
+  std::vector<std::vector<cv::Point2f>> markers;
+  std::vector<int> ids;
+  cv::aruco::detectMarkers(gray, definition->dictionary, markers, ids, cv::aruco::DetectorParameters::create());
+  SeenBoard seen;
+  if (ids.size() < 2) return seen;
+  std::vector<cv::Point2f> points;
+  cv::aruco::interpolateCornersCharuco(markers, ids, gray, definition, points, seen.numbers);
+  const std::vector<Eigen::Vector3d> corners = board_corners(board);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Eigen::Vector3d& corner = corners[static_cast<std::size_t>(seen.numbers[k])];
+    seen.corners.emplace_back(corner.x(), corner.y(), corner.z());
+    // Whole numbers are centres of pixels in both.
+    seen.points.emplace_back((points[k].x + 0.5) / scale - 0.5, (points[k].y + 0.5) / scale - 0.5);
+  }
+  return seen;
+}
+
+}  // namespace visual_hull

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/visual_hull/command/photographs.h"
+
+#include "apps/visual_hull/scene/images.h"
+#include "nef/base/error.h"
+
+namespace visual_hull {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> photographs_of(const std::vector<std::string>& words) {
+  std::vector<fs::path> files;
+  for (const std::string& path : words) {
+    if (!fs::is_directory(path)) {
+      files.emplace_back(path);
+      continue;
+    }
+    for (fs::path& file : list_images(path)) files.push_back(std::move(file));
+  }
+  return files;
+}
+
+void make_folder(const std::string& option, const fs::path& folder) {
+  std::error_code error;
+  if (folder.empty() || fs::is_directory(folder, error)) return;
+  fs::create_directories(folder, error);
+  if (error) throw nef::InputError(option + ": cannot make the directory " + folder.string());
+}
+
+}  // namespace visual_hull

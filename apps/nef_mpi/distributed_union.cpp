@@ -69,7 +69,7 @@ void do_tasks(const Environment& mpi, const TaskPhase& phase, const Watcher& wat
     text += (i == 0 ? "" : "; ") + phase.name_of_task(failures[i].task) + ": " + failures[i].error;
   }
   if (failures.size() > kNamed) text += "; ...";
-  throw TasksFailed(text + "; what is finished is kept: mend this and run again");
+  throw TasksFailed(text + "; finished tasks are kept: repair this and run again");
 }
 
 MeasuredPieces measure_pieces(const Environment& mpi, const WorkFolder& work, const PieceSource& pieces,

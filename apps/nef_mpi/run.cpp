@@ -19,6 +19,7 @@
 #include "apps/nef_mpi/piece_list.h"
 #include "apps/program/run_program.h"
 #include "apps/program/tile_flags.h"
+#include "apps/program/version.h"
 #include "apps/visual_hull/command/arguments.h"
 #include "apps/visual_hull/command/frames.h"
 #include "nef/base/error.h"
@@ -42,13 +43,14 @@ class Run {
   explicit Run(const Environment& mpi) : mpi_(mpi), session_("nef_mpi", std::cout, std::cerr) {}
 
   void add_commands(CLI::App& app) {
-    app.set_version_flag("--version", std::string("nef_mpi ") + NEF_VERSION);
+    app.set_version_flag("--version", version_text("nef_mpi"));
     app.require_subcommand(1);
     app.footer(
-        "Start it with mpirun: mpirun -n 8 nef_mpi union --list pieces.txt -o all.nef. All ranks must see the same\n"
-        "files. What tasks have finished stands in OUT.work until the output is written; a run that was stopped goes "
-        "on\n"
-        "from there if it is started again. Outputs are the same bytes for any number of ranks.");
+        "Start with mpirun: mpirun -n 8 nef_mpi union --list pieces.txt -o all.nef. All ranks must see the same "
+        "files.\n"
+        "Results of finished tasks are kept in OUT.work until the output is written; a stopped run continues from "
+        "there\n"
+        "when it is started again. The output has the same bytes for any number of ranks.");
     add_union(app);
     add_sum(app);
     add_frames(app);
@@ -77,22 +79,22 @@ class Run {
     add_input_flags(command, session_);
     add_output_flags(command, session_)->required();
     add_tile_flags(command, flags_);
-    command->add_option("--times", times_, "Write the seconds of every task to a CSV file")->type_name("FILE");
+    command->add_option("--times", times_, "Write the seconds of each task to a CSV file")->type_name("FILE");
   }
 
   void add_union(CLI::App& app) {
     CLI::App* command = app.add_subcommand("union", "The union of many sets, region by region");
     command->add_option("pieces", session_.inputs, "Files");
-    command->add_option("--list", list_, "A file with an expression (as of nef eval) a line, more pieces")
-        ->type_name("FILE");
+    command->add_option("--list", list_, "File of further pieces, one nef eval expression per line")->type_name("FILE");
     add_output(command);
     command->callback([this] { job_ = [this] { return unite(); }; });
   }
 
   void add_sum(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("minkowski", "The Minkowski sum of two sets, the first one part by part");
-    command->add_option("inputs", session_.inputs, "The two sets, as files")->required()->expected(2);
-    command->add_option("--part", part_, "Vertices of the first set in a part")
+    CLI::App* command =
+        app.add_subcommand("minkowski", "The Minkowski sum of two sets; the first is summed part by part");
+    command->add_option("inputs", session_.inputs, "Files of the two sets")->required()->expected(2);
+    command->add_option("--part", part_, "Vertices of the first set per part")
         ->check(CLI::Range(std::size_t{8}, std::size_t{1} << 30U))
         ->capture_default_str();
     add_output(command);
@@ -142,7 +144,7 @@ class Run {
   // Tasks read their files at different times; a set of old and new ones would be wrong.
   void require_same(const std::string& job_now) const {
     if (job_now != job_text_) {
-      throw InputError("an input was changed while it was being read, so nothing is written; run again");
+      throw InputError("an input changed while it was read, so nothing was written; run again");
     }
   }
 
@@ -171,7 +173,7 @@ class Run {
     std::optional<PieceList> pieces;
     on_first([&] {
       pieces.emplace(session_.inputs, list_, session_.mesh);
-      if (pieces->size() == 0) throw InputError("there are no pieces: name files, or give a --list");
+      if (pieces->size() == 0) throw InputError("no pieces: name files, or give a --list");
       job_text_ = job("union") + pieces->identity();
       work.prepare(job_text_);
     });
@@ -190,7 +192,8 @@ class Run {
     on_first([&] {
       sets = session_.load_all(session_.inputs);
       if (!sets[0].is_bounded()) {
-        throw InputError(session_.inputs[0] + ": unbounded; only bounded sets are cut into parts");
+        throw InputError(session_.inputs[0] +
+                         ": unbounded, and only bounded sets are cut into parts; intersect it with a box first");
       }
       job_text_ = sum_job();
       work.prepare(job_text_);
@@ -213,7 +216,8 @@ class Run {
   }
 
   int frames() {
-    if (hull_.frames.empty()) throw TasksFailed("visual_hull: one hull is one task: give --frames");
+    if (hull_.frames.empty())
+      throw TasksFailed("visual_hull: frames are what ranks share: give --frames (visual_hull computes a single hull)");
     session_.quiet = session_.quiet || !mpi_.first();
     std::unique_ptr<visual_hull::FrameTasks> tasks;
     std::unique_ptr<visual_hull::FrameRecord> record;

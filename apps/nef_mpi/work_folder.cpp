@@ -30,9 +30,9 @@ void WorkFolder::prepare(const std::string& job) const {
   if (!foreign) fs::remove_all(path_, error);
   fs::create_directories(path_, error);
   if (foreign || error) {
-    throw FileError(FileProblem::kUnreadable, path_.string() +
-                                                  ": no folder for the work can be made here; remove what is there, or "
-                                                  "give another output");
+    throw FileError(
+        FileProblem::kUnreadable,
+        path_.string() + ": the work folder cannot be created; remove what is there, or name another output");
   }
   write_file((path_ / kJob).string(), job);
 }

@@ -61,7 +61,7 @@ class KeepText : public nlohmann::json_sax<json> {
     // A file that does not begin like JSON may be anything, and nothing of it is told.
     const std::size_t first = text_.find_first_not_of(" \t\r\n");
     if (first == std::string::npos || (text_[first] != '{' && text_[first] != '[')) {
-      throw InputError(name_ + ": this is no JSON, which begins with { or [");
+      throw InputError(name_ + ": not a JSON file, which begins with { or [");
     }
     throw InputError(line + "not valid JSON near " + in_quotes(tail(token)));
   }

@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "apps/program/run_program.h"
+#include "nef/export/mesh_losses.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef {
@@ -14,7 +15,12 @@ void print_notes(std::ostream& err, const std::string& program, std::span<const 
 
 void Notes::note(const Messages& notes) {
   list_.insert(list_.end(), notes.begin(), notes.end());
-  if (!quiet_) print_notes(err_, program_, notes);
+  if (quiet_) return;
+  Messages printed;
+  for (const std::string& line : notes) {
+    if (!line.starts_with(kOpenPartsClosed)) printed.push_back(line);
+  }
+  print_notes(err_, program_, printed);
 }
 
 void Notes::warn(const std::string& warning) {

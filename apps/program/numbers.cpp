@@ -22,7 +22,8 @@ std::vector<Rational> parse_numbers(std::string_view text, const std::string& wh
     while (end < text.size() && text[end] != ',' && !is_space(text[end])) ++end;
     const std::string_view word = text.substr(at, end - at);
     std::optional<Rational> number = try_parse_rational(word);
-    if (!number) throw InputError(what + ": '" + std::string(word) + "' in '" + std::string(text) + "' is no number");
+    if (!number)
+      throw InputError(what + ": '" + std::string(word) + "' in '" + std::string(text) + "' is not a number");
     result.push_back(*std::move(number));
     while (end < text.size() && is_space(text[end])) ++end;
     // A comma promises another number.

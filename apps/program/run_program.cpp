@@ -6,6 +6,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "apps/program/nearest_word.h"
 #include "apps/program/stack.h"
 #include "nef/base/error.h"
 #include "nef/number/memory.h"
@@ -17,12 +18,10 @@ constexpr int kBadExit = 2;
 
 // What holds for the readers of all programs.
 constexpr const char* kInputLimits =
-    "Input: regular files, and standard input (-), of at most a quarter of the machine's memory; other devices and "
-    "named\n"
-    "pipes are refused, and so are files that unfold to very many copies or unpack to more than 200 times their size.\n"
-    "What other libraries parse (OpenCV's and MATLAB's files, shapes that Assimp reads) is read in a process of\n"
-    "its own, within 512 MB and 256 times the file, and 20 s and 1 s more for each 256 KB of it, 3MF within the same\n"
-    "time; images other than PNG are read within 6 GB and 120 s.";
+    "Limits of input: regular files and standard input (-) of at most a quarter of the machine's memory. Devices and\n"
+    "named pipes are refused, and so are files that unpack to more than 200 times their size or repeat an object very\n"
+    "often. Files of OpenCV and MATLAB and shapes for Assimp are parsed in a separate process, limited to 512 MB plus\n"
+    "256 times the file, and to 20 s plus 1 s per 256 KB (3MF: the same time). Images other than PNG: 6 GB and 120 s.";
 
 // What an exception says to a user; broken invariants say so themselves.
 std::string text_of(const std::exception& error) {
@@ -31,24 +30,45 @@ std::string text_of(const std::exception& error) {
   const auto* system = dynamic_cast<const std::system_error*>(&error);
   const auto is = [system](std::errc code) { return system != nullptr && system->code() == code; };
   if (is(std::errc::resource_unavailable_try_again) || is(std::errc::too_many_files_open)) {
-    return std::string("the system has no room for another thread or file (") + error.what() +
-           "); end other work, or raise its limits (ulimit -u, -n, -v)";
+    return std::string("the system cannot provide another thread or file (") + error.what() +
+           "); close other programs, or raise the limits (ulimit -u, -n, -v)";
   }
   const std::string what = error.what();
   return what.rfind("internal error", 0) == 0 ? what : "internal error: " + what;
 }
 
-}  // namespace
+std::vector<std::string> subcommand_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands(nullptr)) names.push_back(command->get_name());
+  return names;
+}
 
-namespace {
+// The long options of the program and of the subcommand that was given.
+std::vector<std::string> option_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  const auto add = [&names](const CLI::App& command) {
+    for (const CLI::Option* option : command.get_options()) {
+      for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    }
+  };
+  add(app);
+  for (const CLI::App* command : app.get_subcommands()) add(*command);
+  return names;
+}
 
 // What is wrong with a command line. An option that does not exist comes first: what is missing beside it may be what
 // it was meant for.
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
-  for (const std::string& left : app.remaining(true)) {
-    // What stands behind "--" is none, whatever it looks like.
-    if (left == "--") break;
-    if (left.size() > 1 && left.front() == '-') return "there is no option '" + left + "'";
+  const std::vector<std::string> left = app.remaining(true);
+  const bool lacks_command = !subcommand_names(app).empty() && app.get_subcommands().empty();
+  if (lacks_command && !left.empty() && left.front().front() != '-') {
+    return "there is no subcommand '" + left.front() + "'" + did_you_mean(left.front(), subcommand_names(app));
+  }
+  for (const std::string& word : left) {
+    // After "--" nothing is an option.
+    if (word == "--") break;
+    if (word.size() < 2 || word.front() != '-') continue;
+    return "there is no option '" + word + "'" + did_you_mean(word.substr(0, word.find('=')), option_names(app));
   }
   return error.what();
 }
@@ -82,7 +102,7 @@ std::vector<std::string> printed_notes(std::span<const std::string> notes) {
   std::vector<std::string> lines;
   for (const std::string& note : notes.first(shown)) lines.push_back("note: " + one_line(note));
   if (shown < notes.size()) {
-    lines.push_back("note: and " + std::to_string(notes.size() - shown) + " more of them (--json lists all)");
+    lines.push_back("note: and " + std::to_string(notes.size() - shown) + " more (--json lists all)");
   }
   return lines;
 }
@@ -105,7 +125,7 @@ int run_program(CLI::App& app, int argc, char** argv, const std::function<int()>
     app.parse(argc, argv);
     const int code = body();
     std::cout.flush();
-    return std::cout ? code : refuse("stdout cannot be written to");
+    return std::cout ? code : refuse("standard output cannot be written");
   } catch (const CLI::ParseError& error) {
     // Help and version are "errors" with the code 0.
     if (error.get_exit_code() == 0) return app.exit(error, std::cout, std::cerr);

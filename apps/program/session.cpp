@@ -62,7 +62,7 @@ Polyhedron Session::solid_of(const Mesh& mesh_of_part, const std::string& name) 
 }
 
 void Session::write(const std::string& path, const std::function<WrittenFile(Messages& notes)>& write) {
-  if (path == "-" && json) throw InputError("--json and -o - both want standard output; name a file");
+  if (path == "-" && json) throw InputError("--json and -o - both write to standard output; name a file with -o");
   show_phase("writing " + path);
   const Stopwatch watch;
   Messages notes;
@@ -81,7 +81,8 @@ void Session::store_at(const std::string& path, const Polyhedron& set, const Pol
   write(path, [&](Messages& notes) -> WrittenFile {
     if (!names_tile_folder(path)) return write_polyhedron(path, set, options, &notes);
     require_no_mesh_flags(path, {.manifold = options.manifold, .recenter = options.recenter});
-    if (set.complex().label_count > 2) notes.emplace_back("tiles hold a set: all marks but 0 have become 1");
+    if (set.complex().label_count > 2)
+      notes.emplace_back("tiles store two marks only: all marks other than 0 were written as 1");
     const Tiling tiling{.limit = kVerticesOfTileInFile};
     write_tiles(path, TiledPolyhedron(set, tiling, monitor));
     return {};
@@ -174,15 +175,14 @@ CLI::Option* add_output_flags(CLI::App* command, Session& session) {
   add_file_output_options(*command, session.exact, session.binary, session.text);
   add_manifold_option(*command, session.mesh_file.manifold);
   add_mesh_file_options(*command, session.mesh_file);
-  command->add_flag(
-      "--polygons", session.polygons,
-      "Write faces of more than four corners, or not convex, as polygons instead of cutting them into triangles");
-  command->add_option("--format", session.format, "Format to write, whatever the name of the file; nef for -o -")
+  command->add_flag("--polygons", session.polygons,
+                    "Write faces that have more than four corners or are not convex as polygons instead of triangles");
+  command->add_option("--format", session.format, "Output format, whatever the file name; nef for -o -")
       ->check(CLI::IsMember(file_extensions()));
   return command
       ->add_option("-o,--output", session.output,
-                   "File to write, - for standard output; its extension (" + word_list(file_extensions(), "or") +
-                       ") picks the format")
+                   "Output file, or - for standard output; its extension (" + word_list(file_extensions(), "or") +
+                       ") selects the format")
       ->check([](const std::string& path) { return std::string(path.empty() ? "the name of the file is empty" : ""); });
 }
 

@@ -27,7 +27,7 @@ std::size_t tile_limit(const std::string& word) {
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   constexpr std::size_t kFewest = 32;  // a box with a corner cut off in each corner
   if (error != std::errc() || end != word.data() + word.size() || value < kFewest) {
-    throw InputError("--tiles takes auto, off or the number of vertices that a tile may have, at least " +
+    throw InputError("--tiles takes auto, off or the maximal number of vertices of a tile, at least " +
                      std::to_string(kFewest) + "; not '" + word + "'");
   }
   return value;
@@ -74,30 +74,29 @@ TiledPolyhedron mesh_in_tiles(Session& session, const std::string& path, const T
 
 void add_tile_flags(CLI::App* command, TileFlags& flags) {
   command
-      ->add_option(
-          "--tiles", flags.tiles,
-          "Vertices that a tile may have; off: none; auto: tiles where that pays, or where --memory or a .tiles "
-          "input asks for them")
+      ->add_option("--tiles", flags.tiles,
+                   "Maximal number of vertices of a tile; off: no tiles; auto: tiles when they save time, and with "
+                   "--memory or a .tiles file")
       ->type_name("N|off|auto")
       ->capture_default_str();
   command
       ->add_option("--memory", flags.memory,
-                   "Keep tiles within so much memory and the others in files beside the output, such as 800M or 2G")
+                   "Memory for tiles, such as 800M or 2G; the others are kept in files beside the output")
       ->type_name("SIZE");
 }
 
 void add_memory_flag(CLI::App* command, TileFlags& flags) {
   command
-      ->add_option("--memory", flags.memory,
-                   "Keep tiles of a folder NAME.tiles within so much memory, such as 800M or 2G, and read them again "
-                   "when they are needed again")
+      ->add_option(
+          "--memory", flags.memory,
+          "Memory for the tiles of a folder NAME.tiles, such as 800M or 2G; tiles beyond it are read again when needed")
       ->type_name("SIZE");
 }
 
 TileChoice choose_tiles(const TileFlags& flags, const Session& session, const std::string& first_input) {
   TileChoice result;
   if (flags.tiles == "off") {
-    if (!flags.memory.empty()) throw InputError("--memory needs tiles: leave --tiles off out");
+    if (!flags.memory.empty()) throw InputError("--memory needs tiles: remove --tiles off");
     result.use = TileUse::kNever;
     return result;
   }

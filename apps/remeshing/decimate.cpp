@@ -164,8 +164,8 @@ class Step {
 };
 
 std::string stay_text(std::size_t triangles, bool restrained) {
-  const std::string stay = std::to_string(triangles) + " triangles stay: ";
-  if (!restrained) return stay + "no other edge can be collapsed without turning a face over, or a border away";
+  const std::string stay = std::to_string(triangles) + " triangles remain: ";
+  if (!restrained) return stay + "no other edge can be collapsed without flipping a face or losing a border";
   return stay + "with fewer the mesh would touch or cross itself in places, or be much coarser in others";
 }
 

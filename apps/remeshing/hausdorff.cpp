@@ -252,9 +252,9 @@ DistanceBounds scaled(const DistanceBounds& bounds, long exponent) {
 }
 
 void require_triangles(const Mesh& mesh) {
-  if (mesh.face_count() == 0) throw InputError("a mesh without faces is at no distance from another");
+  if (mesh.face_count() == 0) throw InputError("a mesh without faces has no distance from another");
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-    if (mesh.face(f).size() != 3) throw InputError("face " + std::to_string(f) + " is no triangle");
+    if (mesh.face(f).size() != 3) throw InputError("face " + std::to_string(f) + " is not a triangle");
   }
 }
 

@@ -260,10 +260,11 @@ std::vector<Point> points_of(const std::vector<Layer>& layers) {
 Image draw_picture(const std::vector<Layer>& layers, const PictureOptions& options) {
   if (options.width == 0 || options.height == 0 || options.width > kLargest || options.height > kLargest) {
     throw InputError("a picture of " + std::to_string(options.width) + "x" + std::to_string(options.height) +
-                     " pixels cannot be made: give a size between 1x1 and 16384x16384");
+                     " pixels cannot be drawn: give a size between 1x1 and 16384x16384");
   }
   const Point from = options.from.value_or(kDefaultFrom);
-  if (unit(from) == Point{0, 0, 0}) throw InputError("from 0,0,0 is no direction: give one that leads to the eye");
+  if (unit(from) == Point{0, 0, 0})
+    throw InputError("from 0,0,0 is not a direction: give one that leads to the camera");
   const std::vector<Point> points = points_of(layers);
   Point middle{0, 0, 0};
   if (const auto bounds = bounds_of(layers, true)) {

@@ -181,7 +181,7 @@ Scene build_scene(const Polyhedron& polyhedron, const SceneOptions& options, con
   if (options.section) {
     const auto& [a, b, c, d] = *options.section;
     if (a == 0 && b == 0 && c == 0) {
-      throw InputError("section 0,0,0,d is no plane: give a,b,c,d with a normal (a,b,c) other than zero");
+      throw InputError("section 0,0,0,d is not a plane: give a,b,c,d with a normal (a,b,c) other than zero");
     }
     drawn = intersect(drawn, make_halfspace(a, b, c, d, true, monitor), monitor);
   }

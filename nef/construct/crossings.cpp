@@ -14,11 +14,11 @@ struct Words {
 // In the order of the rules.
 constexpr std::array<Words, kAllCrossings.size()> kWords{
     {{"refuse", "nothing"},
-     {"union", "what is enclosed at least once"},
-     {"nonzero", "what has a winding number other than 0"},
-     {"odd", "what is enclosed an odd number of times"},
-     {"outside", "what cannot be reached from outside"},
-     {"guess", "what the faces wind around by half at least, a guess,"}}};
+     {"union", "points that are enclosed at least once"},
+     {"nonzero", "points whose winding number is not 0"},
+     {"odd", "points that are enclosed an odd number of times"},
+     {"outside", "points that cannot be reached from outside"},
+     {"guess", "points with a winding number of at least one half (a guess)"}}};
 
 }  // namespace
 

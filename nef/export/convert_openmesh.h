@@ -92,7 +92,7 @@ OpenMeshType mesh_to_openmesh(const Mesh& mesh, Messages* messages = nullptr) {
   }
   if (separate > 0 && messages != nullptr) {
     messages->push_back(std::to_string(separate) +
-                        " faces got vertices of their own, as OpenMesh holds two-manifolds only");
+                        " faces got their own vertices, because OpenMesh stores two-manifolds only");
   }
   return target;
 }

@@ -28,9 +28,9 @@ std::vector<std::string> MeshLosses::lines() const {
   }
   if (flat.any()) lost.push_back("parts outside the solids are not in the mesh: " + listed(flat));
   if (open.any()) {
-    lost.push_back("the mesh is closed where the boundary does not belong to the set: " + listed(open));
+    lost.push_back(std::string(kOpenPartsClosed) + listed(open));
   }
-  if (cracks.any()) lost.push_back("what is missing inside the solids is filled in the mesh: " + listed(cracks));
+  if (cracks.any()) lost.push_back("missing parts inside the solids were filled: " + listed(cracks));
   return lost;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace nef {
@@ -37,6 +38,10 @@ struct ItemCounts {
     return *this;
   }
 };
+
+/// How the line about `MeshLosses::open` begins. Mesh files cannot store open boundaries, so every difference of two
+/// closed sets has this line: programs keep it for reports, and do not print it.
+inline constexpr std::string_view kOpenPartsClosed = "open parts of the boundary were written as closed: ";
 
 /// What a mesh of the closure of a set's bounded solid parts does not say.
 struct MeshLosses {

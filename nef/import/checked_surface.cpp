@@ -27,14 +27,14 @@ bool is_resolved(const MeshProblem& problem, Crossings rule) {
 
 // What the user can do about a problem that no rule for crossings has an answer to.
 const char* advice_to_repair(MeshProblemKind kind) {
-  if (kind == MeshProblemKind::kOpenBorder) return "; --close (close=10 in Python) closes holes with lids, a guess";
-  if (kind == MeshProblemKind::kInconsistentOrientation) return "; nef repair turns faces to fit their neighbours";
+  if (kind == MeshProblemKind::kOpenBorder) return "; --close (close=10 in Python) closes holes by a guess";
+  if (kind == MeshProblemKind::kInconsistentOrientation) return "; nef repair flips faces to fit their neighbours";
   return "";
 }
 
 }  // namespace
 
-std::string advice_to_unite() { return std::string("; crossings=\"union\" takes ") + taken_by(Crossings::kUnion); }
+std::string advice_to_unite() { return std::string("; crossings=\"union\" selects ") + taken_by(Crossings::kUnion); }
 
 CheckedSurface::CheckedSurface(const Mesh& mesh, Extent extent, Crossings rule, const Monitor& monitor,
                                KnownContacts known)

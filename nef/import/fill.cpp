@@ -178,7 +178,7 @@ class WindingFiller {
   }
 
   [[noreturn]] static void refuse_as_empty() {
-    throw RefusedMesh(kEnclosesNothing, "; --as-surface (surface=True in Python) takes them as a surface");
+    throw RefusedMesh(kEnclosesNothing, "; --as-surface (surface=True in Python) reads them as a surface");
   }
 
   // Names a face that bounds a volume of a winding number that must not be.
@@ -192,13 +192,12 @@ class WindingFiller {
       const std::string face = std::to_string(face_on(f));
       const int bad = wrong(above) ? above : below;
       if (bad < 0 && *std::max_element(winding_.begin(), winding_.end()) > 0) {
-        throw InputError(
-            "components of the mesh contradict each other: face " + face +
-            " has the outside behind it, other faces have the inside behind them; turn its component over");
+        throw InputError("components of the mesh contradict each other: face " + face +
+                         " has the outside behind it, other faces have the inside behind them; flip its component");
       }
-      throw InputError("components of the mesh contradict each other: what face " + face +
-                       " encloses is enclosed by others already; turn its component over if it bounds a cavity, or "
-                       "unite the components");
+      throw InputError(
+          "components of the mesh contradict each other: what face " + face +
+          " encloses is enclosed by others already; flip its component if it bounds a cavity, or unite the components");
     }
     throw std::logic_error("internal error, please report: a winding number that no facet bounds");
   }

@@ -56,8 +56,8 @@ std::variant<Complex, Defect> try_solid(CheckedSurface& checked, const MeshOptio
   for (const std::uint32_t f : first_faces(mesh, MeshSurface(mesh, monitor)))
     list += (list.empty() ? "" : ", ") + std::to_string(f);
   throw InputError("components of the mesh (which begin at faces " + list.substr(0, 60) +
-                   ") contradict each other: one is turned like the one around it, or not like those beside it; "
-                   "turn its faces over" +
+                   ") contradict each other: one is oriented like the component around it, or unlike those beside it; "
+                   "flip its faces" +
                    advice_to_unite());
 }
 
@@ -184,10 +184,9 @@ std::optional<Polyhedron> promised_solid(const Mesh& mesh, const MeshOptions& op
 Polyhedron without_faces(const Mesh& mesh, Messages* messages) {
   if (!mesh.vertices.empty()) {
     throw InputError("the mesh has " + std::to_string(mesh.vertices.size()) +
-                     (mesh.vertices.size() == 1 ? " vertex" : " vertices") +
-                     " but no faces: nothing tells what it bounds");
+                     (mesh.vertices.size() == 1 ? " vertex" : " vertices") + " but no faces, so it bounds nothing");
   }
-  if (messages != nullptr) messages->emplace_back("the mesh has no faces: it is the empty set");
+  if (messages != nullptr) messages->emplace_back("the mesh has no faces, so it is the empty set");
   return {};
 }
 
@@ -222,7 +221,7 @@ std::string note_about(const ResolvedMesh& resolved, Crossings rule) {
   const std::string what = pairs > 0  ? crossing_text(pairs)
                            : is_guess ? "the mesh may have holes"
                                       : "the mesh encloses parts of space several times or inside out";
-  return what + ": " + taken_by(rule) + " was taken";
+  return what + "; selected " + taken_by(rule);
 }
 
 ResolvedMesh resolve_mesh(const Mesh& mesh, const MeshOptions& options, Messages* messages, Measure measure) {

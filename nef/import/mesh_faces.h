@@ -17,7 +17,7 @@
 namespace nef {
 
 /// The note about a mesh whose faces enclosed a negative volume.
-inline constexpr const char* kTurnedOver = "the faces were oriented inward and have been turned over";
+inline constexpr const char* kTurnedOver = "all faces were oriented inward and were flipped";
 
 /// Finds the plane of every face (faces that are not planar are triangulated, which is noted, or refused if the options
 /// are strict) and builds complexes from any selection of faces. Faces without area are left out.

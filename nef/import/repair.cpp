@@ -73,7 +73,7 @@ class Repairer {
     turn_inside_out();
     result_.done = std::move(faces_.done);
     if (faces_.rings.empty()) {
-      result_.problem = "no face is left of the mesh";
+      result_.problem = "no face of the mesh remains";
     } else {
       resolve();
       result_.is_flat = !result_.problem.empty() && result_.holes > 0 && is_flat(faces_, monitor_);
@@ -129,7 +129,7 @@ class Repairer {
     if (!result_.has_lids) return;
     put_on(faces_, lids);
     faces_.done.push_back(counted(lids.holes, "hole", "holes") + " closed by lids of " + percent_text(lids.share) +
-                          " of the area, " + std::to_string(lids.flat) + " of them flat: a guess");
+                          " of the area, " + std::to_string(lids.flat) + " of them flat (a guess)");
   }
 
   void turn_inside_out() {
@@ -142,7 +142,7 @@ class Repairer {
       contacts_ = face_contacts(surface, SurfaceContacts(surface, monitor_));
     }
     const std::size_t turned = turn_components(faces_, components, *contacts_, options_.crossings, monitor_);
-    faces_.note(turned, "component", "components", "turned over");
+    faces_.note(turned, "component", "components", "flipped");
     if (turned > 0) faces_changed();
   }
 
@@ -161,7 +161,7 @@ class Repairer {
         std::erase(result_.notes, kTurnedOver);
         for (std::uint32_t f = 0; f < faces_.rings.size(); ++f) faces_.turn_over(f);
         result_.mesh = faces_.mesh();
-        result_.done.emplace_back("1 component turned over");
+        result_.done.emplace_back("1 component flipped");
       }
       if (note_about(resolved, options_.crossings).empty()) return;
       result_.signed_volume = signed_volume(result_.mesh, monitor_);
@@ -227,14 +227,14 @@ RepairedMesh repair_mesh(const Mesh& mesh, const RepairOptions& options, const M
 }
 
 std::string advice_about(const RepairedMesh& repaired, double close_percent) {
-  constexpr const char* kAsSurface = "; --as-surface (surface=True in Python) takes them as a surface";
+  constexpr const char* kAsSurface = "; --as-surface (surface=True in Python) reads them as a surface";
   if (repaired.problem == kEnclosesNothing) return kAsSurface;
   if (repaired.is_one_sided) {
-    return "; --crossings odd or outside (crossings=\"odd\" in Python) takes what it encloses, whatever the "
+    return "; --crossings odd or outside (crossings=\"odd\" in Python) selects what it encloses, whatever the "
            "orientation";
   }
   if (repaired.is_flat)
-    return std::string("; all faces lie in one plane and enclose nothing under any lid") + kAsSurface;
+    return std::string("; all faces lie in one plane, so no lid makes them enclose anything") + kAsSurface;
   if (repaired.holes == 0 || repaired.has_lids) return "";
   const std::string holes = repaired.holes == 1 ? "its hole" : "its " + std::to_string(repaired.holes) + " holes";
   if (close_percent <= 0) return "; --close closes " + holes;

@@ -25,7 +25,7 @@ class BinaryCursor {
   T take(std::string_view what) {
     std::array<char, sizeof(T)> raw;
     if (bytes_.size() - position_ < sizeof(T)) {
-      fail(FileProblem::kTruncated, "the file ends in the middle of the " + std::string(what) + "; it is cut off");
+      fail(FileProblem::kTruncated, "the file ends in the middle of the " + std::string(what) + "; it is truncated");
     }
     std::memcpy(raw.data(), bytes_.data() + position_, sizeof(T));
     position_ += sizeof(T);

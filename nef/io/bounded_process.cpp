@@ -97,7 +97,7 @@ std::string limits_text(const ParserLimits& limits) {
 
 std::optional<std::string> run_bounded(const ParserLimits& limits, const std::function<std::string()>& work) {
   std::array<int, 2> ends{};
-  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw InputError("no pipe to another process could be made");
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw InputError("no pipe to another process could be created");
   const pid_t child = fork();
   if (child == 0) {
     close(ends[0]);

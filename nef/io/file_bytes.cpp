@@ -58,7 +58,7 @@ class Descriptor {
 
 [[noreturn]] void refuse_size(const std::string& path) {
   refuse(path, "is larger than a quarter of the memory of this machine (" + std::to_string(most_bytes_read() >> 20U) +
-                   " MB), which is the most that is read; use a machine with more, or a smaller file");
+                   " MB), the limit; use a machine with more memory, or a smaller file");
 }
 
 // Standard input may be a pipe, a socket or a terminal; of other devices (/dev/zero) nobody wants to read all.

@@ -58,7 +58,7 @@ const SetFormat* find_set_format(std::string_view extension) {
 void report_wires(const MeshExport& result, Messages& notes) {
   const auto add = [&notes](std::size_t count, const char* one, const char* many) {
     if (count == 0) return;
-    notes.push_back(counted(count, one, many) + " not in the mesh: faces are all that the format has; write " +
+    notes.push_back(counted(count, one, many) + " not in the file, because the format stores faces only; write " +
                     mesh_format_names(kWires) + " or .nef");
   };
   add(result.lines.size(), "line is", "lines are");
@@ -92,11 +92,11 @@ class BoundaryWriter {
   void settle(Mesh& mesh, bool is_strict) {
     if (options_.manifold && !format_.has(kNamedVertices)) {
       throw UnsupportedError(std::string(format_.name) +
-                             " names no vertices, so sheets that touch can not be told apart in it; write " +
+                             " stores no shared vertices, so sheets that touch cannot be separated in it; write " +
                              mesh_format_names(kNamedVertices));
     }
     if (options_.manifold && !file_.groups.none()) {
-      throw UnsupportedError("--manifold cuts faces, so they can have no groups; leave one of the two out");
+      throw UnsupportedError("--manifold cuts faces, so they cannot keep groups; remove one of the two options");
     }
     std::string problem;
     if (!is_strict && options_.exact) {
@@ -108,8 +108,8 @@ class BoundaryWriter {
     if (problem.empty()) return;
     const std::string how = options_.exact
                                 ? "the mesh"
-                                : "rounded to " + std::string(single_ ? "single" : "double") + " precision the mesh";
-    written_.problem = path_ + ": " + how + " is not legal (" + problem + ")";
+                                : "rounded to " + std::string(single_ ? "single" : "double") + " precision, the mesh";
+    written_.problem = path_ + ": " + how + " is not valid (" + problem + ")";
     refuse_unless_lenient(" and could not be repaired");
     const std::string merged = options_.exact ? "" : merged_vertices(mesh, single_);
     if (!merged.empty()) notes_.push_back(merged);
@@ -144,7 +144,7 @@ class BoundaryWriter {
  private:
   void refuse_unless_lenient(const std::string& more) const {
     if (options_.lenient) return;
-    throw UnsupportedError(written_.problem + more + ", so no file is written; write .nef, or " +
+    throw UnsupportedError(written_.problem + more + ", so no file was written; write .nef, or " +
                            mesh_format_names(kFractions) +
                            " with --exact, or move it to the origin (--recenter); --lenient writes it as it is");
   }
@@ -175,7 +175,7 @@ class BoundaryWriter {
     mesh = std::move(separated.mesh);
     if (separated.copies == 0) return "";
     notes_.push_back("the solid touches itself, in " + std::to_string(separated.edges) +
-                     " edges: " + std::to_string(separated.copies) + " vertices are in the file once more");
+                     " edges: " + std::to_string(separated.copies) + " vertices are duplicated in the file");
     if (options_.exact || all_kept(mesh)) return "";
     return rounded_problem(mesh, rounding_, options_.monitor);
   }
@@ -254,7 +254,7 @@ WrittenBoundary write_boundary(const std::string& path, const Polyhedron& polyhe
   }
   writer.color(result.mesh);
   if (groups != nullptr && !writer.format().has(kFaceGroups)) {
-    notes.push_back("groups of faces are not in the file: the format has none; write " +
+    notes.push_back("groups of faces are not in the file, because the format has none; write " +
                     mesh_format_names(kFaceGroups));
   }
   WrittenBoundary written;
@@ -286,7 +286,7 @@ Polyhedron set_of_mesh_file(std::string&& bytes, const PartPath& at, const std::
 void require_no_mesh_options(const std::string& path, const PolyhedronWriteOptions& options) {
   if (!options.manifold && !options.recenter) return;
   throw UnsupportedError(path + ": " + (options.manifold ? "--manifold" : "--recenter") +
-                         " is for meshes, and this format holds the set as it is; write " +
+                         " applies to meshes, and this format stores the set as it is; write " +
                          mesh_format_names(kNamedVertices));
 }
 
@@ -319,7 +319,7 @@ std::vector<std::string> file_extensions() {
 }
 
 std::string offset_note(const std::string& path, const Rational3& offset) {
-  std::string text = "the mesh in " + path + " is about the origin; subtracted from its coordinates:";
+  std::string text = "the mesh in " + path + " is centred at the origin; subtracted from its coordinates:";
   for (const Rational& x : offset) text += " " + x.get_str();
   return text;
 }
@@ -333,8 +333,7 @@ WrittenFile write_polyhedron(const std::string& path, const Polyhedron& polyhedr
     return {};
   }
   if (find_mesh_format(extension) == nullptr) {
-    throw FileError(FileProblem::kUnreadable,
-                    path + ": the extension names no format; use " + word_list(file_extensions(), "or"));
+    throw FileError(FileProblem::kUnreadable, path + ": unknown extension; use " + word_list(file_extensions(), "or"));
   }
   return write_boundary(path, polyhedron, options, nullptr, messages).file;
 }

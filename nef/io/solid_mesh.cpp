@@ -15,8 +15,8 @@ namespace {
 
 void require_legal(const std::string& problem) {
   if (problem.empty()) return;
-  throw UnsupportedError("rounded to double precision the mesh is not legal (" + problem +
-                         ") and could not be repaired; take exact coordinates, or recenter it");
+  throw UnsupportedError("rounded to double precision, the mesh is not valid (" + problem +
+                         ") and could not be repaired; use exact coordinates, or recenter it");
 }
 
 MeshExport exported(const Polyhedron& set, const SolidMeshOptions& options, const Rounding& rounding) {

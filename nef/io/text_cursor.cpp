@@ -147,7 +147,7 @@ void TextCursor::number(Rational& value, std::string_view what, std::size_t inde
   const std::string_view found = word();
   if (found.empty()) {
     fail(FileProblem::kTruncated, "the file ends where the " + std::string(what) + " " + std::to_string(index) +
-                                      " should be; it is cut off or its header promises too much");
+                                      " should be; it is truncated, or its header announces too much");
   }
   parse(found, value, what, index, element);
 }
@@ -164,8 +164,8 @@ void TextCursor::parse(std::string_view word, Rational& value, std::string_view 
 std::int64_t TextCursor::integer(std::string_view what) {
   const std::string_view found = word();
   if (found.empty()) {
-    fail(FileProblem::kTruncated,
-         "the file ends where the " + std::string(what) + " should be; it is cut off or its header promises too much");
+    fail(FileProblem::kTruncated, "the file ends where the " + std::string(what) +
+                                      " should be; it is truncated, or its header announces too much");
   }
   return parse_integer(found, what);
 }

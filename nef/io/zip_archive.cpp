@@ -46,7 +46,7 @@ ZipArchive::ZipArchive(std::string_view bytes, const std::string& path, unsigned
   if (handle_->zip == nullptr && source != nullptr) zip_source_free(source);
   zip_error_fini(&error);
   if (handle_->zip == nullptr) {
-    handle_->fail(FileProblem::kSyntax, "this is no zip archive, or its end is missing (" + what + ")");
+    handle_->fail(FileProblem::kSyntax, "not a zip archive, or its end is missing (" + what + ")");
   }
 }
 

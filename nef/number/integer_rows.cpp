@@ -65,7 +65,7 @@ void IntegerRows::begin_row(std::size_t limbs) {
 
 void IntegerRows::end_row() {
   if (limbs_.size() > std::numeric_limits<std::uint32_t>::max()) {
-    throw UnsupportedError("the set needs more than 32 gigabytes of coordinates; use fewer or shorter ones");
+    throw UnsupportedError("the set needs more than 32 GB of coordinates; use fewer or shorter ones");
   }
   if (++size_ % kTogether == 0) begin_.push_back(static_cast<std::uint32_t>(limbs_.size()));
 }

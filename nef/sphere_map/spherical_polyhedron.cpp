@@ -13,7 +13,7 @@ namespace nef {
 namespace {
 
 void require_direction(const Integer3& v) {
-  if (is_zero(v)) throw InputError("(0,0,0) is no direction");
+  if (is_zero(v)) throw InputError("(0,0,0) is not a direction");
 }
 
 PlaneId intern(PlaneTable& planes, const Integer3& normal) { return planes.intern(normal[0], normal[1], normal[2], 0); }

@@ -107,10 +107,10 @@ void bind_measures(py::module_& /*module*/, PolyhedronClass& c) {
            "be "
            "zero. O(n).")
       .def("info", &info_of, py::arg("exact") = false,
-           R"(What `nef info --json` tells of the set, as a dictionary with the same keys (docs/reports.md).
+           R"(The report of `nef info --json` as a dictionary with the same keys (docs/reports.md).
 
-Exact numbers are text. exact: tell them however long they are, and however long they take; otherwise measures of all but
-small sets are floats with bounds.)");
+Exact numbers are text. exact: compute them however long they are and however long that takes; otherwise measures of all
+but small sets are floats with bounds.)");
 }
 
 }  // namespace nef::python

@@ -145,8 +145,8 @@ void bind_operations(PolyhedronClass& c) {
           py::arg("matrix"),
           R"(The image under an affine map, exactly.
 
-matrix: array or nested sequence of shape (4, 4), (3, 4) or (3, 3); every entry is taken as the number that it is, so
-Fractions give what they say and floats what they hold. Raises InputError if the map is not invertible.)")
+matrix: array or nested sequence of shape (4, 4), (3, 4) or (3, 3); every entry is converted exactly, from
+Fractions as from floats. Raises InputError if the map is not invertible.)")
       .def(
           "translate",
           [](const Polyhedron& a, py::handle by) {

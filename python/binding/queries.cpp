@@ -139,7 +139,7 @@ void bind_queries(py::module_& /*module*/, PolyhedronClass& c) {
 
 points: three numbers for one point, which gives a bool; or an array of shape (N, 3) of floats, integers or Fractions,
 which gives a bool array of shape (N,). threads: for arrays of floats; 0: as many as the machine has. Raises InputError
-for a coordinate that is no finite number.)")
+for a coordinate that is not a finite number.)")
       .def(
           "__contains__", [](const Polyhedron& a, py::handle p) { return contains(a, to_triple(p, "a point")); },
           py::arg("point"))
@@ -148,25 +148,26 @@ for a coordinate that is no finite number.)")
       .def(
           "locate", [](const Polyhedron& a, py::handle p) { return location_of(locate(a, to_triple(p, "a point"))); },
           py::arg("point"),
-          "What holds a point: nef.Location(kind, index, label), kind being 'vertex', 'edge', 'facet' or 'volume'.")
+          "The item that contains a point: nef.Location(kind, index, label), kind being 'vertex', 'edge', 'facet' or "
+          "'volume'.")
       .def("ray", &ray, py::arg("origin"), py::arg("direction"),
            R"(The first vertex, edge or facet on the open ray from `origin` (excluded) in `direction` (not zero):
 nef.RayHit(point, location), the point in Fractions; or None.)")
       .def("section", &section_of, py::arg("normal"), py::arg("offset"), py::arg("exact") = false,
            R"(The section with the plane of all points x with normal . x + offset = 0: nef.Section.
 
-Its `set` is exact; `polygons`, `segments` and `points` hold the nearest doubles, or Fractions if `exact`. Raises
+Its `set` is exact; `polygons`, `segments` and `points` are the nearest doubles, or Fractions if `exact`. Raises
 InputError if the normal is zero.)")
       .def("distance", &distance_of, py::arg("other"),
            R"(How far the closures of two sets are apart: nef.Distance, or None if one is empty.
 
 Its `squared` is exact (a Fraction), as are the nearest points; `contact` is 'disjoint', 'touching' (the closures meet,
-the interiors do not) or 'overlapping'; `common_point` tells whether a point is in both sets themselves.)")
+the interiors do not) or 'overlapping'; `common_point` is whether a point is in both sets themselves.)")
       .def("counts", &counts_of, "nef.Counts(vertices, edges, facets, volumes, shells), the outer volume included.")
       .def(
           "euler_numbers",
           [](const Polyhedron& a) { return call(items(a), [a](const Monitor&) { return euler_numbers(a); }); },
-          "V - E + F of each shell, as many as counts() tells; what is at infinity does not count.")
+          "V - E + F of each shell of counts(); items at infinity do not count.")
       .def("labels", &labels_of, "The labels that points of space carry, increasing; 0 and 1 in an ordinary set.")
       .def(
           "validate",

@@ -195,7 +195,7 @@ void bind_tiled_methods(py::class_<Tiles>& c) {
        "The set as a Polyhedron: glued, in an order that depends on the set alone.")
       .def("is_empty", &Tiles::is_empty, "True for the set without points. O(1).")
       .def("is_everything", &Tiles::is_everything, "True for all of space. O(1).")
-      .def("tile_count", &Tiles::tile_count, "How many tiles hold boundary of the set.")
+      .def("tile_count", &Tiles::tile_count, "How many tiles contain boundary of the set.")
       .def("vertex_count", &Tiles::vertex_count, "Vertices of all tiles, those in their walls included.")
       .def("contains", &contained, py::arg("points"),
            R"(Whether points are in the set, exactly: a bool for three numbers, a bool array of shape (N,) for an array
@@ -208,7 +208,7 @@ of shape (N, 3).)")
           },
           py::arg("point"))
       .def("locate", &locate_in_tiles, py::arg("point"),
-           "What of the whole set holds a point, as Polyhedron.locate tells; the index is None.")
+           "The item of the whole set that contains a point, as Polyhedron.locate; the index is None.")
       .def("ray", &ray_in_tiles, py::arg("origin"), py::arg("direction"),
            "The first vertex, edge or facet of the whole set on an open ray, as of a Polyhedron; indices are None.")
       .def("volume", &volume_of_tiles, "The volume, a Fraction; None if it is infinite.")
@@ -226,10 +226,9 @@ of shape (N, 3).)")
                          a.threads);
           },
           py::arg("matrix"), "The image under an affine map; tile by tile if it takes axes to axes.")
-      .def(
-          "write", &write_folder, py::arg("path"),
-          R"(Writes the set to a folder, NAME.tiles by custom. Tiles that are there already are not written again; whoever
-stops half-way leaves the old set.)");
+      .def("write", &write_folder, py::arg("path"),
+           R"(Writes the set to a folder, NAME.tiles by custom. Existing tiles are not written again; an
+interrupted call leaves the old set.)");
 }
 
 }  // namespace

@@ -14,11 +14,11 @@ dimension. Numbers go in as ints, floats (the rational numbers that they are), F
 come out as Fractions where they are exact. Lengths have the unit of the input.
 
 Long calls release the interpreter's lock. In the main thread Ctrl-C ends a call within a few hundredths of a second: the
-exception goes on at once, the computation stops soon after in its thread, and its result is thrown away; sets are
-immutable, so nothing is ever half done. Operators and functions of this package tell how far they have come inside
+exception is raised at once, the computation stops soon after in its thread, and its result is discarded; sets are
+immutable, so nothing is ever half done. Operators and functions of this package report their progress inside
 `with nef.progress(function)`.
 
-The packages nef.minkowski, nef.visual_hull and nef.planner hold the applications.
+The applications are the modules nef.minkowski, nef.visual_hull and nef.planner.
 """
 import contextlib
 from typing import Callable, Iterator, Optional

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Meshes of other packages, by what they look like. None of these packages is needed until it is asked for."""
+"""Meshes of other packages, by what they look like. Each package is imported only when one of its objects is used."""
 from typing import Any
 
 import numpy
@@ -64,38 +64,36 @@ def from_mesh(vertices: Any, faces: Any = None, *, strict: bool = False, surface
       of trimesh, Open3D, meshio, pyvista, or anything with .vertices and .faces
     - faces: integer array of shape (M, K), or a sequence of M sequences of vertex numbers, counterclockwise as seen from
       outside
-    - strict: refuse faces that are not exactly planar instead of triangulating them (which a warning tells)
+    - strict: refuse faces that are not exactly planar instead of triangulating them with a warning
     - surface: take the union of the faces as a two-dimensional set; any mesh will do
-    - check: look for faces that meet otherwise than in common vertices and edges, which is a fourth of the time.
-      Precondition of False: there are none. All else is checked as ever, and where such faces keep vertices from fitting
-      together they are looked for nevertheless; others may go unseen and give a set that means nothing
-    - crossings: what is inside of a closed mesh whose faces cross, or that encloses something several times, by winding
-      numbers: "refuse" (an InputError), "union" (what is enclosed at least once), "nonzero" (also what is inside out),
-      "odd" (overlaps are cavities), "outside" (what cannot be reached from outside), "guess" (of that, what the faces of
-      a mesh with holes wind around by at least half: a guess); a warning tells what was done. "odd" and "outside" take
-      faces that are turned in any way
-    - close: if above 0, a mesh that bounds no solid is repaired as `nef repair --close` does it, and lids close its holes
-      if they have at most so many percent of the area of the mesh with its lids: a guess. A warning tells what was done
+    - check: detect faces that meet outside of common vertices and edges (a fourth of the time). Set it to False only if
+      there are none: some are found anyway, others would make the set meaningless
+    - crossings: which points are inside a closed mesh whose faces cross or that encloses points several times, by winding
+      number: "refuse" (an InputError), "union" (enclosed at least once), "nonzero" (parts that are inside out, too),
+      "odd" (overlaps are cavities), "outside" (not reachable from outside), "guess" (for meshes with holes: a winding
+      number of at least one half). A warning reports the choice. "odd" and "outside" ignore the orientation of faces
+    - close: if above 0, a mesh that does not bound a solid is repaired as by `nef repair --close`: its holes get lids if
+      these have at most this percentage of the area of the mesh with lids. Lids are a guess, and reported as a warning
 
-    A mesh that touches itself is legal; one without vertices and faces is the empty set (which a warning tells). Raises
-    InputError for one that is open, inconsistently oriented or crosses itself, or has vertices but no faces; its
-    `vertices`, `edges` and `faces` hold the guilty elements.
+    A mesh may touch itself; a mesh without vertices and faces is the empty set (with a warning). Raises InputError if the
+    mesh is open, inconsistently oriented, crosses itself, or has vertices but no faces; `vertices`, `edges` and `faces` of
+    the error are the elements at fault.
     """
     return _nef._from_mesh(*_vertices_and_faces(vertices, faces), strict, surface, check, crossings, close)
 
 
 def repair(vertices: Any, faces: Any = None, *, crossings: str = "union", close: float = 0, fill_holes: bool = False,
            strict: bool = False) -> Repair:
-    """The solid that a mesh means which bounds none as it is, and what became of each of its faces, as `nef repair` does it.
+    """Repairs a mesh that does not bound a solid, as `nef repair`: the solid, and what happened to each face.
 
-    A mesh that bounds a solid is left alone. Otherwise doubled faces and those without area go, T-junctions close, faces are
-    turned to fit their neighbours and components outward; holes are closed if `close` (percent of the area, see from_mesh) or
-    `fill_holes` (planar ones, of any size) asks for it; what crosses itself then is resolved by the rule `crossings`. No vertex
-    moves.
+    A mesh that bounds a solid is not changed. Otherwise doubled faces and faces without area are removed, T-junctions are
+    closed, and faces are flipped to fit their neighbours, components outward. Holes are closed with `close` (percent of the
+    area, see from_mesh) or `fill_holes` (planar holes of any size). Crossings that remain are resolved by the rule
+    `crossings`. Vertices do not move.
 
         >>> r = nef.repair([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
         >>> r.set.volume(), r.done
-        (Fraction(1, 6), ['1 face turned to fit the neighbours'])
+        (Fraction(1, 6), ['1 face flipped to fit their neighbours'])
     """
     return _nef._repair(*_vertices_and_faces(vertices, faces), strict, fill_holes, crossings, close)
 

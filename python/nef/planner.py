@@ -8,7 +8,7 @@ is none.
     >>> robot = nef.box((0, 0, 0), (1, 1, 1))                  # as wide as the hole
     >>> scene = planner.Scene(robot, [wall], box=((0, 0, 0), (8, 8, 8)))
     >>> plan = scene.plan((1, 1, 1), (7, 7, 7))
-    >>> plan.status, plan.thinness.piece                      # through a passage without any room beside it
+    >>> plan.status, plan.thinness.piece                      # through a passage exactly as wide as the robot
     ('path', 1)
 """
 import os
@@ -39,7 +39,7 @@ class Cell(NamedTuple):
 
 
 class TightPassage(NamedTuple):
-    """A part of free space without room: the robot touches obstacles on opposite sides everywhere in it."""
+    """A part of free space without interior: everywhere in it the robot touches obstacles on opposite sides."""
 
     #: of its largest cell: 2, 1 or 0
     dimension: int
@@ -96,7 +96,7 @@ class CertifiedPath:
       'undecided'
     - collision: a CollidingPose of the first motion that collides, or None
     - undecided: numbers of the motions that could not be decided; contact that is kept while turning is the usual cause
-    - touching: numbers of the free motions on which robot and obstacles touch, or come closer than doubles can tell
+    - touching: numbers of the free motions on which robot and obstacles touch, or come closer than doubles can resolve
     """
 
     def __init__(self, status, collision, undecided, touching):
@@ -135,7 +135,7 @@ class TurningProof:
         return self._proof.cells
 
     def complaint(self) -> Optional[str]:
-        """What is wrong with the proof, found by other means than the search; None if it holds."""
+        """What is wrong with the proof, checked independently of the search; None if nothing."""
         return self._proof.complaint()
 
 
@@ -270,7 +270,7 @@ class Scene:
 
     @property
     def messages(self) -> List[str]:
-        """What was done to the input: a line each."""
+        """The changes made to the input, one per line."""
         return self._scene.messages
 
     def keep_clear(self, distance: Any) -> "Scene":
@@ -310,14 +310,14 @@ class Scene:
 
         - start, goal: three numbers each, and a fourth, degrees, if the robot turns (that of the scene if it is left out);
           those of the scene's file if None
-        - raw: without shortcuts
-        - clearance: way-points off the obstacles where there is a choice
-        - roomy: the roomiest way first, then short (else just short)
-        - min_dimension: only where free space is locally at least this thick
-        - quick: the first way found, pulled a few times, rather than the shortest of several ways round
-        - digits: round way-points to so many decimals where the motions stay free
-        - seconds: the search ends after so long; what is not decided by then is 'undecided'
-        - max_cells: only of a robot that turns: the range of angles is cut into so many cells at most (2000)
+        - raw: no shortcuts
+        - clearance: way-points away from obstacles where possible
+        - roomy: use thin passages only where needed (else: any passage)
+        - min_dimension: stay in pieces of free space of at least this dimension
+        - quick: shorten the first path found a little, instead of choosing the shortest of several
+        - digits: round way-points to this many decimals where the motions stay free
+        - seconds: time limit, after which the status is 'undecided'
+        - max_cells: for a robot that turns: maximal number of cells of angles (2000)
         """
         scene = self._scene.with_ends(start, goal)
         if scene.start is None or scene.goal is None:
@@ -326,11 +326,11 @@ class Scene:
             raise InputError(f"digits must be from 0 to 300, not {digits}")
         if scene.rotation is not None:
             if raw or clearance or roomy or quick or min_dimension:
-                raise InputError("a plan of a robot that turns knows digits, max_cells and seconds only")
+                raise InputError("a plan of a robot that turns takes only digits, max_cells and seconds")
             answer = _planner.solve_turning(scene, 2000 if max_cells is None else max_cells, seconds, digits)
             return Plan(answer, "translation and turning")
         if max_cells is not None:
-            raise InputError("max_cells is for a robot that turns; the scene has no rotation")
+            raise InputError("max_cells applies to a robot that turns, but the scene has no rotation")
         if self._space is None:
             invalid = scene.invalid_end(scene.start, scene.goal)
             if invalid is not None:
@@ -381,10 +381,10 @@ class Scene:
 
 
 def read(path: Any, *, crossings: str = "union", close: float = 0) -> Scene:
-    """The scene of a file: JSON, or an OMPL.app problem (.cfg). What was done to its meshes is told by warnings.
+    """The scene of a file: JSON, or an OMPL.app problem (.cfg). Changes to its meshes are reported as warnings.
 
-    crossings, close: how its meshes are read, as of nef.from_mesh. A mesh that bounds no solid by that is taken as what it
-    means, maybe as a surface; with crossings="refuse" it is an InputError.
+    crossings, close: how its meshes are read, as in nef.from_mesh. A mesh that does not bound a solid is interpreted,
+    perhaps as a surface; with crossings="refuse" it is an InputError.
     """
     scene = Scene.__new__(Scene)
     scene._scene = _planner.read(os.fspath(path), crossings, close)

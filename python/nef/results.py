@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""What queries answer. All are named tuples; numbers are fractions.Fraction where they are exact."""
+"""Results of queries. All are named tuples; numbers are fractions.Fraction where they are exact."""
 from typing import NamedTuple, Optional
 
 
 class Location(NamedTuple):
-    """What holds a point: an item of the complex of a set."""
+    """The item of a set's complex that contains a point."""
 
     #: 'vertex', 'edge', 'facet' or 'volume'
     kind: str
@@ -63,7 +63,7 @@ class Distance(NamedTuple):
 
 
 class Penetration(NamedTuple):
-    """How two sets stand to each other, and how to make them touch."""
+    """Whether two sets overlap, and how to make them touch."""
 
     #: 'disjoint', 'touching' or 'overlapping'
     contact: str

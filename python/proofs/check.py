@@ -303,7 +303,7 @@ def crosses_odd(triangles, origin):
         crossed = [crosses(corners, origin, [1000, 7 + 13 * ray, 11 + 17 * ray * ray]) for corners in triangles]
         if None not in crossed:
             return sum(crossed) % 2
-    raise Refused("no ray misses the edges, or start or goal is on the barrier")
+    raise Refused("every ray meets an edge, or start or goal is on the barrier")
 
 
 def check_infeasible(claim, witness):

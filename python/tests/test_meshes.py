@@ -110,7 +110,7 @@ def test_crossings():
     corners = CORNERS + [[x + Fraction(1, 2) for x in v] for v in CORNERS]
     squares = SQUARES + [[v + 8 for v in face] for face in SQUARES]
     overlap = Fraction(1, 8)
-    with pytest.raises(nef.InputError, match='crossings="union" takes what is enclosed at least once'):
+    with pytest.raises(nef.InputError, match='crossings="union" selects points that are enclosed at least once'):
         nef.from_mesh(corners, squares)
     for rule, volume in (("union", 2 - overlap), ("nonzero", 2 - overlap), ("odd", 2 - 2 * overlap),
                          ("outside", 2 - overlap)):
@@ -126,7 +126,7 @@ def test_repair():
     assert sound.set == cube and sound.problem is None and sound.done == [] and sound.faces == 6 * ["kept"]
     turned = nef.repair(CORNERS, [SQUARES[0][::-1]] + SQUARES[1:] + [SQUARES[2]])
     assert turned.set == cube and turned.faces == ["turned"] + 5 * ["kept"] + ["copy"]
-    assert turned.done == ["1 face with the corners of another dropped", "1 face turned to fit the neighbours"]
+    assert turned.done == ["1 face with the corners of another dropped", "1 face flipped to fit their neighbours"]
 
     corners = CORNERS + [[x + Fraction(1, 2) for x in v] for v in CORNERS]
     squares = SQUARES + [[v + 8 for v in face] for face in SQUARES]

@@ -44,6 +44,7 @@ TEST_CASE("section writes drawings and sections in space") {
   const std::string svg = here.read("a.svg");
   CHECK(svg.find("<svg") == 0);
   CHECK(std::count(svg.begin(), svg.end(), 'Z') == 2);  // a ring and its hole
+  CHECK(svg.find("width=\"4.16mm\" height=\"4.16mm\"") != std::string::npos);
   CHECK(svg.find("viewBox=\"-0.08 -4.08 4.16 4.16\"") != std::string::npos);
   REQUIRE(here.nef("section a.nef --plane 0,0,1,-1 -o a.dxf").code == 0);
   const std::string dxf = here.read("a.dxf");
@@ -102,7 +103,7 @@ TEST_CASE("repair says what became of the named parts of a file") {
   CHECK(outcome.json()["parts"]["a"]["cut"] == 3);
   CHECK(outcome.json()["parts"]["a"]["kept"] == 3);
   CHECK(outcome.json()["parts"]["b"]["inside"] == 6);
-  CHECK(outcome.json()["done"].back() == "nothing is left of the part 'b': it lies inside");
+  CHECK(outcome.json()["done"].back() == "no face remains of the part 'b': it lies inside");
   CHECK(nlohmann::json::parse(here.read("record.json"))["parts"]["b"] == nlohmann::json{6, 7, 8, 9, 10, 11});
   // Without a record nothing is looked up, and one part is a mesh without parts.
   CHECK(here.nef("repair three.obj -o all.nef --json").json()["parts"].is_null());
@@ -212,7 +213,7 @@ TEST_CASE("repair says what it did, and whether that was enough") {
   here.write("open.off", open);
   const Outcome hopeless = here.nef("repair open.off -o c.off");
   CHECK(hopeless.code == 1);
-  CHECK(hopeless.out.find("no file is written") != std::string::npos);
+  CHECK(hopeless.out.find("no file was written") != std::string::npos);
   CHECK_FALSE(std::filesystem::exists(here.file("c.off")));
   const Outcome lenient = here.nef("repair open.off -o c.off --lenient -q");
   CHECK(lenient.code == 1);
@@ -243,7 +244,7 @@ TEST_CASE("every command closes holes when asked, and notes it") {
   open.replace(open.rfind("4 "), std::string::npos, "");
   open.replace(open.find("8 6 "), 4, "8 5 ");
   here.write("open.off", open);
-  check_refused(here.nef("info open.off"), "--close (close=10 in Python) closes holes with lids, a guess");
+  check_refused(here.nef("info open.off"), "--close (close=10 in Python) closes holes by a guess");
   check_refused(here.nef("info open.off --close"), "--close=17 accepts them");
   const Outcome closed = here.nef("union open.off open.off --close=17 -o two.nef --json");
   REQUIRE(closed.code == 0);

@@ -138,7 +138,7 @@ TEST_CASE("variables are sets or numbers") {
   CHECK(same(text + "a30", "box(0,0,0,1,1,1)"));
   CHECK(refusal("a = 1; a") == "column 8: there is no set or function 'a'");
   CHECK(refusal("a = point(0,0,0) a") == "column 18: expected ';' after the value of 'a', found 'a'");
-  CHECK(refusal("box = 3; box(0,0,0,box,1,1)") == "column 1: 'box' is a word of the language; choose another name");
+  CHECK(refusal("box = 3; box(0,0,0,box,1,1)") == "column 1: 'box' is a reserved word; choose another name");
   CHECK(refusal("a = b; a") == "column 5: there is no set or function 'b'");
 }
 
@@ -188,14 +188,18 @@ TEST_CASE("errors give the column and what was expected") {
   CHECK(refusal("") == "column 1: expected a set, found the end");
   CHECK(refusal("box(0,0,0,1,1,1) box(0,0,0,1,1,1)") ==
         "column 18: expected an operator (+ * - ^) or the end, found 'box'");
-  CHECK(refusal("cube(1)") == "column 1: there is no set or function 'cube'");
+  CHECK(refusal("cube(1)") == "column 1: there is no set or function 'cube'; a cube is box(0,0,0, 1,1,1)");
+  CHECK(refusal("spere(1)") == "column 1: there is no set or function 'spere'; did you mean 'sphere'?");
+  CHECK(refusal("plate = box(0,0,0,1,1,1); plat") ==
+        "column 27: there is no set or function 'plat'; did you mean 'plate'?");
+  CHECK(refusal("x") == "column 1: there is no set or function 'x'");
   CHECK(refusal("nothing + \n  (everything") ==
         "line 2, column 14: expected ')' for the '(' at line 2, column 3, found the end");
   CHECK(refusal("box(0,0,0,1,1)").rfind("column 14: expected another number, found ')'", 0) == 0);
   CHECK(refusal("box(0,0,0,1,1,1,1)").rfind("column 17: too many numbers", 0) == 0);
-  CHECK(refusal("box(0,0,0,1,1,x)").rfind("column 15: 'x' is no number", 0) == 0);
-  CHECK(refusal("box(0,0,0,1,1,1/0)").rfind("column 15: '1/0' is no number", 0) == 0);
-  CHECK(refusal("point(nan,0,0)").rfind("column 7: 'nan' is no number", 0) == 0);
+  CHECK(refusal("box(0,0,0,1,1,x)").rfind("column 15: 'x' is not a number", 0) == 0);
+  CHECK(refusal("box(0,0,0,1,1,1/0)").rfind("column 15: '1/0' is not a number", 0) == 0);
+  CHECK(refusal("point(nan,0,0)").rfind("column 7: 'nan' is not a number", 0) == 0);
   CHECK(refusal("file(a.off)").rfind("column 6: expected '\"'", 0) == 0);
   CHECK(refusal("file(\"a.off)").find("closing") != std::string::npos);
   CHECK(refusal("difference(nothing)").rfind("column 19: expected another set", 0) == 0);

@@ -66,7 +66,7 @@ TEST_CASE("folded surfaces are refused in the same words on any number of thread
       for (const std::string fill : {"", " --fill-holes"}) {
         const Outcome repaired = here.nef("repair " + file + fill + threads + " -o out.off");
         CHECK(repaired.code == 1);
-        CHECK(repaired.out.find("the mesh bounds no solid still: ") != std::string::npos);
+        CHECK(repaired.out.find("still not a valid solid: ") != std::string::npos);
       }
     }
   }
@@ -83,7 +83,7 @@ TEST_CASE("a mesh without vertices and faces is the empty set everywhere, and is
       CAPTURE(command);
       const Outcome outcome = here.nef(command);
       CHECK(outcome.code == 0);
-      CHECK((outcome.out + outcome.err).find("has no faces: it is the empty set") != std::string::npos);
+      CHECK((outcome.out + outcome.err).find("has no faces, so it is the empty set") != std::string::npos);
     }
   }
   CHECK(here.nef("repair empty.off -o out.off").code == 0);
@@ -131,10 +131,12 @@ TEST_CASE("meshes that bound no solid are refused, with the guilty elements") {
     }
     return text.str();
   }());
-  check_refused(here.nef("info crossing.obj --crossings refuse"), "crossings=\"union\" takes what is enclosed");
+  check_refused(here.nef("info crossing.obj --crossings refuse"),
+                "crossings=\"union\" selects points that are enclosed");
   const Outcome crossing = here.nef("info crossing.obj --json");
   CHECK(crossing.code == 0);
-  CHECK(crossing.err.find("6 pairs of faces cross: what is enclosed at least once was taken") != std::string::npos);
+  CHECK(crossing.err.find("6 pairs of faces cross; selected points that are enclosed at least once") !=
+        std::string::npos);
   CHECK(crossing.json()["result"]["volume"] == "15");
   CHECK(here.nef("info crossing.obj --json -q --crossings odd").json()["result"]["volume"] == "14");
   check_refused(here.nef("info crossing.obj --crossings both"), "both");
@@ -213,7 +215,7 @@ TEST_CASE("components that contradict each other are refused") {
     const Outcome checked = here.nef("check " + file + " --json");
     CHECK(checked.code == 1);
     CHECK(checked.json()["problems"].back()["name"] == "inconsistent orientation");
-    CHECK(here.nef("info " + file).err.find("what is enclosed at least once was taken") != std::string::npos);
+    CHECK(here.nef("info " + file).err.find("points that are enclosed at least once") != std::string::npos);
   }
   CHECK(here.nef("info nested.off --json").json()["result"]["volume"] == "729");
   // The larger box decides that the mesh is inside out; the smaller one is so then.

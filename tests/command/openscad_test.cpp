@@ -153,13 +153,13 @@ TEST_CASE("OpenSCAD: solids from points run clockwise", "[openscad]") {
 TEST_CASE("OpenSCAD: what is wrong, and where", "[openscad]") {
   CHECK(openscad_refusal("cube(1)") == "line 1: expected ';', found the end");
   CHECK(openscad_refusal("\n\ngroup() { cube(1);") == "line 3: '{' of line 3 is not closed");
-  CHECK(openscad_refusal("cube(1);\ncube(w);").rfind("line 2: 'w' is no number", 0) == 0);
+  CHECK(openscad_refusal("cube(1);\ncube(w);").rfind("line 2: 'w' is not a number", 0) == 0);
   CHECK(openscad_refusal("group() {\n text(text = \"a\"); }").rfind("line 2: text: this is not supported", 0) == 0);
   CHECK(openscad_refusal("group() {\n square(1);\n cube(1); }") == "line 1: group: it mixes 2D and 3D objects");
   CHECK(openscad_refusal("minkowski() { cube(1); cube(1); }") ==
         "line 1: minkowski: Minkowski sums cannot be computed here");
   CHECK(openscad_refusal("import(file = \"a.stl\");") == "line 1: import: files cannot be read here");
-  CHECK(openscad_refusal("polyhedron(points = [[0,0,0]], faces = [[0,1,2]]);").find("an index names no point") !=
+  CHECK(openscad_refusal("polyhedron(points = [[0,0,0]], faces = [[0,1,2]]);").find("an index does not name a point") !=
         std::string::npos);
   CHECK(openscad_refusal("polygon(points = [[0,0],[1,1],[1,0],[0,1]]);").rfind("line 1: polygon: ", 0) == 0);
   CHECK(openscad_refusal(std::string(100000, '[')).rfind("line 1: ", 0) == 0);

@@ -172,7 +172,7 @@ TEST_CASE("Losses and merged vertices are reported") {
   messages.clear();
   const Polyhedron thin = make_box({1, 1, 1}, {2, 2, parse_rational("1.0000000000000000000001")});
   CHECK_THROWS_AS(write_polyhedron(folder.file("b.off"), thin), UnsupportedError);
-  CHECK(write_polyhedron(folder.file("b.off"), thin, {.lenient = true}, &messages).problem.find("not legal") !=
+  CHECK(write_polyhedron(folder.file("b.off"), thin, {.lenient = true}, &messages).problem.find("not valid") !=
         std::string::npos);
   REQUIRE(messages.size() == 1);
   CHECK(messages[0].find("4 vertices lie where another one does") != std::string::npos);

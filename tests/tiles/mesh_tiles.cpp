@@ -48,7 +48,7 @@ TEST_CASE("solids on a grid come in piece by piece") {
     const Tiling tiling{*rc::gen::inRange<std::size_t>(8, 60)};
     const unsigned threads = *rc::gen::element(1U, 2U);
     same_in_pieces(mesh, tiling, threads, *rc::gen::inRange<std::size_t>(1, 12), "as it is");
-    same_in_pieces(turned_over(mesh), tiling, threads, 6, "turned over");
+    same_in_pieces(turned_over(mesh), tiling, threads, 6, "flipped");
   }));
 }
 

@@ -47,43 +47,47 @@ void declare_tasks(CLI::App& app, Arguments& a) {
   app.add_flag("--open", a.open, "The opening of A by B: all of A that B covers as it moves within A");
   app.add_flag("--close", a.close, "The closing of A by B: A + B, eroded by B");
   app.add_option("--offset", a.offset,
-                 "R or R,N: A grown by a ball of radius R, shrunk if R < 0; the result lies around the exact answer "
-                 "(--outer, default) or inside of it (--inner); N: how fine the ball is (8), see --ball")
+                 "R or R,N: grow A by a ball of radius R, or shrink it if R < 0; the result contains the exact answer "
+                 "(--outer, default) or lies inside it (--inner); N: how fine the ball is (8), see --ball")
       ->type_name("R[,N]");
-  app.add_flag("--inner", a.inner, "Of --offset, --ball: inside of what round balls would give");
-  app.add_flag("--outer", a.outer, "Of --offset, --ball: around what round balls would give");
-  app.add_option("--sweep", a.sweep, "Points x,y,z: what A passes over as it moves along the polyline through them")
+  app.add_flag("--inner", a.inner, "With --offset, --ball: the result lies inside that of a round ball");
+  app.add_flag("--outer", a.outer, "With --offset, --ball: the result contains that of a round ball");
+  app.add_option("--sweep", a.sweep,
+                 "Points x,y,z: the region that A sweeps as it moves along the polyline through them")
       ->expected(-1)
       ->type_name("X,Y,Z");
   app.add_flag("--hull", a.hull, "The convex hull of A");
   app.add_flag("--penetration", a.penetration,
-               "Whether A and B are disjoint, touch or overlap, and the shortest translation of B to contact");
+               "Report whether A and B are disjoint, touch or overlap, and the shortest translation of B to contact");
   app.add_flag("--no-fit", a.no_fit, "The translations of B for which it touches A without overlap");
   app.add_flag("--reach", a.reach,
                "TOOL PART: the free positions of the tool (its origin) that are connected to the outside");
-  app.add_option("--from", a.from, "x,y,z, of --reach: connected to this position instead")->type_name("X,Y,Z");
-  app.add_option("--touched", a.touched, "Of --reach: a file for what of the part's boundary the tool can touch")
+  app.add_option("--from", a.from, "x,y,z, with --reach: the positions connected to this one instead")
+      ->type_name("X,Y,Z");
+  app.add_option("--touched", a.touched, "With --reach: file for the part of the boundary that the tool can touch")
       ->type_name("FILE");
-  app.add_option("--untouched", a.untouched, "Of --reach: a file for what of it the tool cannot touch")
+  app.add_option("--untouched", a.untouched,
+                 "With --reach: file for the part of the boundary that the tool cannot touch")
       ->type_name("FILE");
-  app.add_option(
-         "--labels", a.labels,
-         "Of --reach: a mesh file for the part's whole boundary, its faces in two groups, touched and untouched "
-         "(groups in OBJ, colours in OFF, PLY and GLB). Of --millable: for what the tool leaves beyond the part, in "
-         "groups region1, region2, ... by descending volume")
+  app.add_option("--labels", a.labels,
+                 "With --reach: mesh file for the part's whole boundary, its faces in two groups, touched and "
+                 "untouched (groups in OBJ, colours in OFF, PLY and GLB). With --millable: for what the tool leaves "
+                 "beyond the part, in groups region1, region2, ... by descending volume")
       ->type_name("FILE");
   app.add_flag("--millable", a.millable,
-               "PART TOOL: what is left of a block around the part where the tool has cut all that it can without "
-               "cutting into the part");
-  app.add_option("--axes", a.axes, "3, of --millable: the tool comes down the z axis, so what is above it must be free")
+               "PART TOOL: the shape that remains of a block around the part when the tool has removed all it can "
+               "without cutting into the part");
+  app.add_option("--axes", a.axes,
+                 "3, with --millable: the tool comes down the z axis, so the space above it must be free")
       ->check(CLI::IsMember({3}));
   app.add_flag("--decompose", a.decompose, "Write the convex cells of A, to one mesh file or into a directory");
-  app.add_option("--format", a.format, "Of cells in a directory: off (default), ply, obj, or nef (exact, with marks)")
+  app.add_option("--format", a.format,
+                 "Format of cells in a directory: off (default), ply, obj, or nef (exact, with marks)")
       ->check(CLI::IsMember({"off", "ply", "obj", "nef"}));
   app.add_flag("--configuration-space", a.configuration_space, "Free positions of a robot among obstacles");
   app.add_option("--robot", a.robot, "The robot; its reference point is the origin")->type_name("FILE");
   app.add_option("--obstacles", a.obstacles, "The obstacles")->expected(-1)->type_name("FILE");
-  app.add_option("--box", a.box, "x0,y0,z0,x1,y1,z1: what bounds the reference point")->type_name("BOX");
+  app.add_option("--box", a.box, "x0,y0,z0,x1,y1,z1: bounds of the reference point")->type_name("BOX");
 }
 
 Task task_of(const Arguments& a) {
@@ -108,9 +112,9 @@ bool has_tool(const Arguments& a) { return !a.ball.empty() || !a.box_tool.empty(
 void check_output(const Arguments& a, Task task) {
   if (task == Task::kPenetration) {
     if (!a.session.output.empty())
-      throw InputError("--penetration prints its answer: -o does not go with it (--report does)");
+      throw InputError("--penetration prints its answer and takes no -o (--report writes it to a file)");
   } else if (a.session.output.empty()) {
-    throw InputError("-o (--output) is needed: a file for the result");
+    throw InputError("no output: name a file with -o");
   }
   if (!a.format.empty() && task != Task::kDecompose) {
     throw InputError("--format goes with --decompose; -o names a file by its extension");
@@ -130,7 +134,7 @@ void check_output(const Arguments& a, Task task) {
 
 void check_operands(const Arguments& a, Task task) {
   if (!a.ball.empty() && !a.box_tool.empty()) {
-    throw InputError("--ball and --box-tool both stand in for B: give one of them");
+    throw InputError("--ball and --box-tool both replace B: give one of them");
   }
   const bool changes_b = has_tool(a) || a.open_b || a.negate_b || a.hull_b;
   if (task == Task::kConfigurationSpace) {
@@ -138,7 +142,8 @@ void check_operands(const Arguments& a, Task task) {
     if (a.obstacles.empty()) throw InputError("--configuration-space needs --obstacles (one file or more)");
     if (!a.operands.empty()) throw InputError("--configuration-space takes --robot and --obstacles, not A and B");
     if (changes_b || a.open_a) {
-      throw InputError("--ball, --box-tool and what changes A or B do not go with --configuration-space");
+      throw InputError(
+          "--configuration-space does not take --ball, --box-tool, --open-a, --open-b, --negate-b or --hull-b");
     }
     return;
   }
@@ -146,10 +151,10 @@ void check_operands(const Arguments& a, Task task) {
     throw InputError("--robot, --obstacles and --box go with --configuration-space");
   }
   if (is_unary(task) && changes_b) {
-    throw InputError("--" + name(task) + " takes A alone: what stands in for B or changes it does not go with it");
+    throw InputError("--" + name(task) + " takes A alone: remove the options that replace or change B");
   }
   if (task == Task::kReach && (changes_b || a.open_a)) {
-    throw InputError("--reach takes a tool and a part: what stands in for B or changes A or B does not go with it");
+    throw InputError("--reach takes a tool and a part: remove the options that replace or change A or B");
   }
   const std::size_t wanted = is_unary(task) || has_tool(a) ? 1 : 2;
   if (a.operands.size() != wanted) {
@@ -164,23 +169,21 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("operands", a.operands,
                  "A and B: sets or meshes (" + word_list(file_extensions(), "or") + "), or folders NAME.tiles")
       ->type_name("FILE");
-  app.add_option("-o,--output", a.session.output, "Where the result goes; the extension says the format")
-      ->type_name("FILE");
-  app.add_flag("--open-a", a.open_a, "Take the interior of A");
-  app.add_flag("--open-b", a.open_b, "Take the interior of B");
-  app.add_flag("--negate-b", a.negate_b, "Take -B instead of B");
-  app.add_flag("--hull-b", a.hull_b,
-               "Take the convex hull of B, which holds B: for balls and the like whose coordinates "
-               "were rounded, so that they are not quite convex");
-  app.add_option(
-         "--ball", a.ball,
-         "R,N: a ball of radius R stands in for B: an octahedron whose edges are split into N parts (1 does not "
-         "split), 4 N^2 + 2 vertices; inscribed (--inner, default) or circumscribed (--outer)")
+  app.add_option("-o,--output", a.session.output, "Output file; the extension selects the format")->type_name("FILE");
+  app.add_flag("--open-a", a.open_a, "Use the interior of A");
+  app.add_flag("--open-b", a.open_b, "Use the interior of B");
+  app.add_flag("--negate-b", a.negate_b, "Use -B instead of B");
+  app.add_flag(
+      "--hull-b", a.hull_b,
+      "Use the convex hull of B (a superset of B): for solids that are convex up to rounding of their coordinates");
+  app.add_option("--ball", a.ball,
+                 "R,N: use a ball of radius R as B: an octahedron with edges split into N parts, 4 N^2 + 2 vertices; "
+                 "inscribed (--inner, default) or circumscribed (--outer)")
       ->type_name("R,N");
-  app.add_option("--box-tool", a.box_tool, "x,y,z: a box of these extents about the origin stands in for B")
+  app.add_option("--box-tool", a.box_tool, "x,y,z: use a box of these extents, centred at the origin, as B")
       ->type_name("X,Y,Z");
   app.add_option("--union", a.union_name,
-                 "How a sum is made: auto (default), convolution (without cells), queue (of sums of cells)")
+                 "Algorithm of sums: auto (default), convolution (without cells), queue (of sums of cells)")
       ->check(CLI::IsMember(strategy_names()));
   declare_tasks(app, a);
   add_input_flags(&app, a.session);
@@ -190,7 +193,7 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--report", a.session.report, "Write a JSON report: cells, pairs, times, predicates, memory, result")
       ->type_name("FILE");
   app.add_flag("--exact-volume", a.exact_volume,
-               "Report the exact volume of the result, too: it may have millions of digits");
+               "Report the exact volume of the result, which may have millions of digits");
   app.add_option("--preview", a.preview, "Write pictures (PNG) of the operands and the result into this directory")
       ->type_name("DIR");
   add_run_flags(&app, a.session);

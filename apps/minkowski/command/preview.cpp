@@ -12,7 +12,7 @@ namespace {
 std::string picture_path(const std::string& directory, const std::string& name) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);
-  if (error) throw InputError(directory + ": the directory cannot be made (" + error.message() + ")");
+  if (error) throw InputError(directory + ": the folder cannot be created (" + error.message() + ")");
   return (std::filesystem::path(directory) / (name + ".png")).string();
 }
 

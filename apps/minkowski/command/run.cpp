@@ -20,6 +20,7 @@
 #include "apps/program/report.h"
 #include "apps/program/run_program.h"
 #include "apps/program/set_info.h"
+#include "apps/program/version.h"
 #include "nef/base/counted.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/io/file_bytes.h"
@@ -101,7 +102,7 @@ class Run {
 
   static int splits(const Rational& n, const std::string& option) {
     if (n.get_den() != 1 || n < 1 || n > 64) {
-      throw InputError(option + " R,N: N is a whole number from 1 to 64, not " + brief_text(n));
+      throw InputError(option + " R,N: N must be a whole number from 1 to 64, not " + brief_text(n));
     }
     return static_cast<int>(n.get_num().get_si());
   }
@@ -187,7 +188,7 @@ class Run {
     const std::optional<Rational> excess = excess_of_hull(b);
     if (!excess) return;
     session_.note("B is convex but for " + scientific(*excess) +
-                  " of its volume: --hull-b takes its hull, which holds B");
+                  " of its volume; --hull-b uses its convex hull, a superset");
   }
 
   Polyhedron combined(const Polyhedron& a, const Polyhedron& b) {
@@ -259,8 +260,7 @@ class Run {
       details_["unreached"].push_back(set_info(region, {.exact = a_.exact_volume, .bounds = true}));
     }
     if (!a_.labels.empty()) store_regions(found.unreached);
-    session_.say(counted(found.unreached.size(), "region", "regions") +
-                 " beyond the part that the tool does not reach");
+    session_.say(counted(found.unreached.size(), "region", "regions") + " beyond the part not reached by the tool");
     return found.shape;
   }
 
@@ -396,7 +396,7 @@ class Run {
 int run_command(int argc, char** argv) {
   CLI::App app("Exact Minkowski sums of any two polyhedral sets: minkowski A B -o OUT");
   app.name("minkowski");
-  app.set_version_flag("--version", std::string("minkowski ") + NEF_VERSION);
+  app.set_version_flag("--version", version_text("minkowski"));
   app.footer("Exit codes: 0 done, 2 bad input or usage.");
   Arguments arguments;
   declare(app, arguments);

@@ -167,18 +167,18 @@ WrittenFile write_cells(const std::string& path, std::span<const ConvexCell> cel
   const std::string extension = is_directory ? "" : lower_extension(path);
   const std::string format = extension.empty() ? files.format : extension;
   if (files.recenter && format == "nef") {
-    throw UnsupportedError("--recenter is for files of meshes; cells as .nef are where they are");
+    throw UnsupportedError("--recenter applies to mesh files; cells in .nef files keep their place");
   }
   const auto thin = std::count_if(cells.begin(), cells.end(), [](const ConvexCell& c) { return c.dimension < 2; });
   if (thin > 0 && format == "ply") {
     messages.push_back(path + ": " + std::to_string(thin) +
-                       " of the cells are segments or points, which PLY leaves out");
+                       " of the cells are segments or points, which PLY cannot store");
   }
   const Coordinates coordinates{.exact = files.exact, .offset = files.recenter ? middle_of(cells) : Rational3{}};
   WrittenFile written{.offset = coordinates.offset};
   if (!files.exact && format != "nef") written.problem = problem_of_rounded(path, cells, coordinates.offset);
   if (!written.problem.empty() && !files.lenient) {
-    throw UnsupportedError(written.problem + "; --exact keeps them, --lenient writes them as they are");
+    throw UnsupportedError(written.problem + "; --exact writes them exactly, --lenient as they are");
   }
   if (!extension.empty()) {
     write_mesh_file(path, cells, 0, extension, coordinates);
@@ -186,9 +186,9 @@ WrittenFile write_cells(const std::string& path, std::span<const ConvexCell> cel
   }
   std::error_code error;
   std::filesystem::create_directories(path, error);
-  if (error) throw InputError(path + ": the directory cannot be made (" + error.message() + ")");
+  if (error) throw InputError(path + ": the folder cannot be created (" + error.message() + ")");
   if (const std::string stale = stale_cell(path, cells.size(), format); !stale.empty()) {
-    throw InputError(path + ": holds " + stale + " of an earlier run; empty it or name another directory");
+    throw InputError(path + ": contains " + stale + " of an earlier run; empty it or name another folder");
   }
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::string file = cell_path(path, i, format);

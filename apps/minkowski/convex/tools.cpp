@@ -38,7 +38,7 @@ Rational3 on_sphere(double x, double y, double z) {
 ConvexCell ball(const Rational& radius, int splits, const Monitor& monitor) {
   if (sgn(radius) <= 0) throw InputError("the radius of a ball must be positive, not " + brief_text(radius));
   if (splits < 1 || splits > 64) {
-    throw InputError("a ball has 1 to 64 splits an edge, not " + std::to_string(splits) + " (4 N^2 + 2 vertices)");
+    throw InputError("a ball has 1 to 64 splits per edge, not " + std::to_string(splits) + " (4 N^2 + 2 vertices)");
   }
   std::vector<Rational3> points;
   for (int i = 0; i <= splits; ++i) {

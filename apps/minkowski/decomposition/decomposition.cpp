@@ -17,9 +17,9 @@ namespace nef::minkowski {
 
 void require_bounded(const Polyhedron& a, const char* what) {
   if (a.is_bounded()) return;
-  throw UnsupportedError(std::string(what) +
-                         " is unbounded, so it is not a union of finitely many convex polytopes: "
-                         "intersect it with a box first");
+  throw UnsupportedError(
+      std::string(what) +
+      " is unbounded, so it is not a union of finitely many convex polytopes; intersect it with a box first");
 }
 
 std::vector<ConvexCell> decompose(const Polyhedron& a, const Monitor& monitor) {

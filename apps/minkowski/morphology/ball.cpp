@@ -66,7 +66,7 @@ BallApproximation ball_approximation(const Rational& radius, int splits, Side si
 
 Polyhedron inner_ball(const Rational& radius, const Rational& splits, const Monitor& monitor) {
   if (splits.get_den() != 1 || splits < 1 || splits > 64) {
-    throw InputError("ball(r, n): n is a whole number from 1 to 64");
+    throw InputError("ball(r, n): n must be a whole number from 1 to 64");
   }
   return to_polyhedron(
       ball_approximation(radius, static_cast<int>(splits.get_num().get_si()), Side::kInner, monitor).cell, monitor);

@@ -10,7 +10,7 @@ namespace nef::minkowski {
 namespace {
 
 void require_tool(const Polyhedron& b) {
-  if (b.is_empty()) throw InputError("the structuring set B is empty: nothing can be opened or closed with it");
+  if (b.is_empty()) throw InputError("the structuring set B is empty, so it cannot open or close anything");
 }
 
 }  // namespace

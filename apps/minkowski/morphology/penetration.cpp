@@ -84,7 +84,7 @@ Candidate way_out(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptio
       report.convolution_facets += found->facets;
       report.convolution_points += found->candidates;
       report.convolution_regions += found->tested;
-      report.choices.push_back({"convolution", "facets near the origin tell how deep it lies in the sum"});
+      report.choices.push_back({"convolution", "depth found from facets near the origin"});
       return {std::move(found->squared), std::move(found->point)};
     }
   }
@@ -113,7 +113,7 @@ Penetration penetration(const Polyhedron& a, const Polyhedron& b, const Minkowsk
     result.squared_length = out.squared_length;
     return result;
   }
-  r.choices.push_back({"none", "the sets do not overlap: their distance tells all"});
+  r.choices.push_back({"none", "the sets do not overlap: their distance is the answer"});
   const std::optional<Distance> apart = distance(a, b, monitor);
   NEF_ASSERT(apart.has_value());  // neither set is empty
   if (apart->contact != Contact::kDisjoint) {

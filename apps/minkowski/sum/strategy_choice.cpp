@@ -27,7 +27,7 @@ StrategyChoice choice_of_cells(std::size_t two_by_two, std::string why) {
 std::optional<Polyhedron> sum_by_convolution(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
                                              MinkowskiReport& report, std::string& why) {
   const bool insist = options.strategy == UnionStrategy::kConvolution;
-  why = "asked for";
+  why = "requested";
   if (!insist && options.strategy != UnionStrategy::kAuto) return std::nullopt;
   const PhaseTimer phase(report.seconds_union, report.predicates_union, options.monitor);
   for (const Polyhedron* set : {&a, &b}) {

@@ -25,7 +25,7 @@ struct Command {
   std::string name;
   std::string description;
   /// What its operands are, files that go to Session::input (if it has just one) or Session::inputs; empty: none.
-  std::string operands = "The set, as a file";
+  std::string operands = "File of the set";
   int least = 1;
   int most = 1;
   bool reads_meshes = true;  ///< options about reading meshes

@@ -5,6 +5,7 @@
 
 #include "apps/nef/command/commands.h"
 #include "apps/program/run_program.h"
+#include "apps/program/version.h"
 #include "nef/base/monitor.h"
 
 namespace nef {
@@ -33,7 +34,7 @@ void add(CLI::App& app, Session& session, const Command& row) {
 
 void add_commands(CLI::App& app, Session& session, const CommandExtensions& extensions) {
   app.name("nef");
-  app.set_version_flag("--version", std::string("nef ") + NEF_VERSION);
+  app.set_version_flag("--version", version_text("nef"));
   app.require_subcommand(1);
   app.footer("Exit codes: 0 done or yes, 1 no (unequal, check failed), 2 bad input or usage.");
   for (const Commands& rows : {boolean_commands(), unary_commands(), transform_commands(), info_commands(),
@@ -62,11 +63,6 @@ int run_command(int argc, char** argv, const CommandExtensions& extensions) {
   Session session("nef", std::cout, std::cerr);
   CLI::App app("Exact operations on Nef polyhedra: any sets of points bounded by planes.");
   add_commands(app, session, extensions);
-  const auto is_first = [argv](const CLI::App* command) { return command->get_name() == argv[1]; };
-  if (argc > 1 && argv[1][0] != '-' && app.get_subcommands(is_first).empty()) {
-    session.complain("there is no subcommand '" + std::string(argv[1]) + "' (see nef --help)");
-    return kBad;
-  }
   const ProgressFunction show = [&session](const char* phase, std::size_t done, std::size_t total) {
     session.show_phase(phase, done, total);
   };

@@ -100,6 +100,7 @@ class ExpressionEvaluator {
       case Term::kSphere:
         return make_sphere(n[0], corners_of(n, 1, kMostCornersOfBall), options_.monitor);
       case Term::kCylinder:
+        warn_of_radius(n);
         return make_cylinder(n[0], n[1], n.size() > 2 ? n[2] : n[1], corners_of(n, 3, kMostCornersOfCircle),
                              options_.monitor);
       case Term::kPolygon:
@@ -116,13 +117,24 @@ class ExpressionEvaluator {
     }
   }
 
+  // A third number that is far beyond the others is likely meant as corners.
+  void warn_of_radius(std::span<const Rational> n) const {
+    constexpr int kFewCorners = 8;
+    if (n.size() != 3 || !options_.warn || n[2].get_den() != 1 || n[2] < kFewCorners) return;
+    if (n[2] <= 4 * n[0] || n[2] <= 4 * n[1]) return;
+    const std::string start = "cylinder(" + to_string(n[0]) + ", " + to_string(n[1]) + ", ";
+    const std::string third = to_string(n[2]);
+    options_.warn(start + third + "): " + third + " is the second radius; for " + third + " corners write " + start +
+                  to_string(n[1]) + ", " + third + ")");
+  }
+
   // The number of corners of a round shape, if it is given.
   static unsigned corners_of(std::span<const Rational> numbers, std::size_t at, unsigned most) {
     constexpr unsigned kUsual = 32;
     if (numbers.size() <= at) return kUsual;
     const Rational& n = numbers[at];
     if (n.get_den() != 1 || n < 3 || n > most) {
-      throw InputError("the number of corners is one from 3 to " + std::to_string(most));
+      throw InputError("the number of corners must be from 3 to " + std::to_string(most));
     }
     return static_cast<unsigned>(n.get_num().get_ui());
   }
@@ -226,7 +238,8 @@ bool is_blank_expression(std::string_view text) { return ExpressionScanner(text)
 Polyhedron convex_hull_of_sets(std::span<const Polyhedron> sets, const Monitor& monitor) {
   std::vector<Rational3> points;
   for (const Polyhedron& set : sets) {
-    if (!set.is_bounded()) throw InputError("the hull of an unbounded set is not computed");
+    if (!set.is_bounded())
+      throw InputError("the hull of an unbounded set cannot be computed; intersect the set with a box first");
     const Complex& c = set.complex();
     for (const VertexId v : c.vertex_ids()) points.push_back(c.points.rational(point_of(v)));
   }

@@ -50,4 +50,10 @@ const Function* find_function(std::string_view name) {
   return function == kFunctions.end() ? nullptr : function;
 }
 
+std::vector<std::string> function_names() {
+  std::vector<std::string> names;
+  for (const Function& function : kFunctions) names.emplace_back(function.name);
+  return names;
+}
+
 }  // namespace nef

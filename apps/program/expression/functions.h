@@ -4,7 +4,9 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "apps/program/expression/syntax_tree.h"
 
@@ -25,5 +27,8 @@ struct Function {
 
 /// The function of this name; null if there is none.
 const Function* find_function(std::string_view name);
+
+/// The names of all functions.
+std::vector<std::string> function_names();
 
 }  // namespace nef

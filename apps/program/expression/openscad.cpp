@@ -97,7 +97,7 @@ class ModelEvaluator {
                          const Rational& otherwise) {
     const OpenScadValue* value = node.find(name, place);
     if (value == nullptr) return otherwise;
-    if (value->number() == nullptr) throw InputError("'" + std::string(name) + "' is no number");
+    if (value->number() == nullptr) throw InputError("'" + std::string(name) + "' is not a number");
     return *value->number();
   }
 
@@ -142,7 +142,7 @@ class ModelEvaluator {
     for (const OpenScadValue& x : *value.list()) {
       const Rational* n = x.number();
       if (n == nullptr || n->get_den() != 1 || *n < 0 || *n >= Rational(points)) {
-        throw InputError("an index names no point (there are " + std::to_string(points) + ")");
+        throw InputError("an index does not name a point (there are " + std::to_string(points) + ")");
       }
       result.push_back(static_cast<std::uint32_t>(n->get_num().get_ui()));
     }
@@ -156,7 +156,7 @@ class ModelEvaluator {
                                               nearest_double(number(node, "$fa", kNowhere, 12)),
                                               nearest_double(number(node, "$fs", kNowhere, 2)));
     if (count > most) {
-      throw InputError(std::to_string(count) + " corners around ($fn, $fa, $fs) are more than the " +
+      throw InputError(std::to_string(count) + " corners around ($fn, $fa, $fs) exceed the limit of " +
                        std::to_string(most) + " that are made");
     }
     return count;

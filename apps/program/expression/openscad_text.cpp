@@ -163,10 +163,10 @@ class ModelParser {
     } else if (word != "undef") {
       std::optional<Rational> number = try_parse_rational(word);
       if (!number) {
-        fail(word.empty() ? "expected a value, found " + in_quotes(text_.substr(at_, 1))
-                          : in_quotes(word) +
-                                " is no number; .csg files hold no variables (openscad -o model.csg "
-                                "model.scad makes them)");
+        fail(word.empty()
+                 ? "expected a value, found " + in_quotes(text_.substr(at_, 1))
+                 : in_quotes(word) +
+                       " is not a number; .csg files have no variables (openscad -o model.csg model.scad writes them)");
       }
       result.is = *std::move(number);
     }

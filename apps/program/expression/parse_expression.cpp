@@ -8,6 +8,7 @@
 #include "apps/program/expression/functions.h"
 #include "apps/program/expression/scanner.h"
 #include "apps/program/expression/syntax_tree.h"
+#include "apps/program/nearest_word.h"
 
 namespace nef {
 namespace {
@@ -47,7 +48,7 @@ class ExpressionParser : private ExpressionScanner {
     }
     if (find_function(name) != nullptr) {
       move_to(begin);
-      fail("'" + name + "' is a word of the language; choose another name");
+      fail("'" + name + "' is a reserved word; choose another name");
     }
     if (begins_set()) {
       SyntaxNode set = sum();
@@ -167,7 +168,7 @@ class ExpressionParser : private ExpressionScanner {
       return node;
     }
     const Function* function = find_function(name);
-    if (function == nullptr) fail("there is no set or function '" + std::string(name) + "'");
+    if (function == nullptr) fail("there is no set or function '" + std::string(name) + "'" + suggestion(name));
     move_to(offset() + name.size());
     SyntaxNode node;
     node.term = function->term;
@@ -178,6 +179,13 @@ class ExpressionParser : private ExpressionScanner {
     if (peek() == ',') fail("too many arguments; usage: " + std::string(function->usage));
     expect(')', function->usage);
     return node;
+  }
+
+  [[nodiscard]] std::string suggestion(std::string_view name) const {
+    std::vector<std::string> known = function_names();
+    for (const auto& [variable, index] : sets_) known.push_back(variable);
+    if (name == "cube") return "; a cube is box(0,0,0, 1,1,1)";
+    return did_you_mean(name, known);
   }
 
   void arguments(const Function& function, SyntaxNode& node) {
@@ -319,7 +327,7 @@ class ExpressionParser : private ExpressionScanner {
     const std::string_view digits = rest.substr(0, end);
     if (digits.empty()) fail("expected a number, found " + here() + "; usage: " + std::string(usage));
     std::optional<Rational> value = try_parse_rational(digits);
-    if (!value) fail("'" + std::string(digits) + "' is no number; usage: " + std::string(usage));
+    if (!value) fail("'" + std::string(digits) + "' is not a number; usage: " + std::string(usage));
     move_to(offset() + end);
     return *std::move(value);
   }

@@ -96,7 +96,7 @@ void run_on_threads(std::size_t count, unsigned threads, const std::function<voi
     throw;
   } catch (const std::exception& failure) {
     // The body throws nothing, so this comes from oneTBB.
-    throw Error(std::string("threads could not be started (") + failure.what() +
+    throw Error(std::string("threads cannot be started (") + failure.what() +
                 "); use one (--threads 1), or raise the limits of processes and memory (ulimit -u, -v)");
   }
 }

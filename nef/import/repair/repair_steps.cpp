@@ -123,7 +123,7 @@ MeshInRepair::MeshInRepair(const Mesh& mesh) : vertices(mesh.vertices), fates(me
   const std::vector<std::uint32_t> place = merge_equal(mesh.vertices);
   std::size_t merged = 0;
   for (std::uint32_t v = 0; v < place.size(); ++v) merged += place[v] != v ? 1 : 0;
-  note(merged, "vertex", "vertices", "at the place of another united with it");
+  note(merged, "vertex", "vertices", "merged with another of the same coordinates");
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
     Ring& ring = rings.emplace_back();
     for (const std::uint32_t v : mesh.face(f)) {
@@ -224,7 +224,7 @@ void split_sides(MeshInRepair& mesh, OpenSides which, const Monitor& monitor) {
     }
     ring = std::move(longer);
   }
-  mesh.note(split, "vertex", "vertices", "in the side of a face made a corner of it");
+  mesh.note(split, "vertex", "vertices", "on the side of a face made a corner of it");
 }
 
 void turn_to_neighbours(MeshInRepair& mesh) {
@@ -267,7 +267,7 @@ void turn_to_neighbours(MeshInRepair& mesh) {
       ++turned;
     }
   }
-  mesh.note(turned, "face", "faces", "turned to fit the neighbours");
+  mesh.note(turned, "face", "faces", "flipped to fit their neighbours");
 }
 
 bool is_flat(const MeshInRepair& mesh, const Monitor& monitor) {

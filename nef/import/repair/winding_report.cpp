@@ -44,8 +44,8 @@ std::vector<std::string> lines_about(const ResolvedMesh& resolved, Crossings rul
   std::vector<std::string> result;
   if (resolved.crossing_pairs > 0 || rule == Crossings::kGuess) {
     result.push_back(
-        (resolved.crossing_pairs > 0 ? crossing_text(resolved.crossing_pairs) : "the mesh may have holes") + ": " +
-        taken_by(rule) + " is taken");
+        (resolved.crossing_pairs > 0 ? crossing_text(resolved.crossing_pairs) : "the mesh may have holes") +
+        "; selected " + taken_by(rule));
   }
   double total = 0;
   for (const auto& [winding, entry] : resolved.volumes) {

@@ -58,7 +58,7 @@ class Nef3File {
   // Commas and braces touch numbers in some files, so words are cut at them.
   std::string_view word() {
     if (rest_.empty()) rest_ = cursor_.word();
-    if (rest_.empty()) cursor_.fail(FileProblem::kTruncated, "the file ends early; it is cut off");
+    if (rest_.empty()) cursor_.fail(FileProblem::kTruncated, "the file ends early; it is truncated");
     constexpr std::string_view kMarks = "{},|";
     std::size_t length = rest_.find_first_of(kMarks);
     length = length == 0 ? 1 : std::min(length, rest_.size());
@@ -136,7 +136,7 @@ class Nef3File {
     }
     if (const std::string_view kernel = word(); kernel != "standard") {
       cursor_.fail(FileProblem::kUnsupported,
-                   "the file is of the kernel " + in_quotes(kernel) + "; only the standard kernel is read");
+                   "the file is of the kernel " + in_quotes(kernel) + "; only the standard kernel is supported");
     }
     const std::size_t vertex_count = count("vertices");
     svertex_count_ = count("halfedges");
@@ -376,11 +376,11 @@ Polyhedron read_nef3(std::string_view text, const std::string& path, const Monit
   std::variant<Complex, Defect> made = Builder(file, monitor).run();
   if (const Defect* defect = std::get_if<Defect>(&made)) {
     file.fail(FileProblem::kSyntax,
-              "the file is no valid polyhedron: its vertices do not fit together: " + defect->text());
+              "the file is not a valid polyhedron: its vertices do not fit together: " + defect->text());
   }
   Complex& complex = std::get<Complex>(made);
   if (const std::string broken = validate(complex, monitor); !broken.empty()) {
-    file.fail(FileProblem::kSyntax, "the file is no valid polyhedron: " + broken);
+    file.fail(FileProblem::kSyntax, "the file is not a valid polyhedron: " + broken);
   }
   return Polyhedron(std::move(complex));
 }

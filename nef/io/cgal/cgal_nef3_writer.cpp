@@ -239,7 +239,7 @@ class Nef3Writer {
 
 std::string nef3_text(const Polyhedron& polyhedron, Messages* messages) {
   if (polyhedron.complex().has_box()) {
-    throw UnsupportedError("the set is unbounded, which .nef3 of a standard kernel cannot hold; write .nef instead");
+    throw UnsupportedError("the set is unbounded, which .nef3 of a standard kernel cannot store; write .nef instead");
   }
   Nef3Writer writer(polyhedron.complex());
   std::string text = writer.run();

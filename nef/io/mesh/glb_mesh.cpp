@@ -33,16 +33,16 @@ class GlbReader {
  public:
   GlbReader(std::string_view bytes, const std::string& path) : path_(path) {
     BinaryCursor header(bytes, path, 0, std::endian::little);
-    if (header.take<std::uint32_t>("header") != kGlbMagic) fail(FileProblem::kSyntax, "this is no binary glTF");
+    if (header.take<std::uint32_t>("header") != kGlbMagic) fail(FileProblem::kSyntax, "not a binary glTF file");
     if (header.take<std::uint32_t>("header") != 2) fail(FileProblem::kUnsupported, "only version 2 of glTF is read");
     const auto size = header.take<std::uint32_t>("header");
     if (size != bytes.size()) {
       fail(size > bytes.size() ? FileProblem::kTruncated : FileProblem::kWrongCount,
            "its header says that it has " + std::to_string(size) + " bytes, but it has " +
-               std::to_string(bytes.size()) + "; it is cut off or damaged");
+               std::to_string(bytes.size()) + "; it is truncated or damaged");
     }
     for (std::size_t position = 12; position < bytes.size();) position += read_chunk(bytes, position);
-    if (!document_.is_object()) fail(FileProblem::kSyntax, "there is no JSON in it");
+    if (!document_.is_object()) fail(FileProblem::kSyntax, "it contains no JSON");
   }
 
   Mesh read(MeshParts* parts) {
@@ -66,7 +66,8 @@ class GlbReader {
     BinaryCursor cursor(bytes, path_, position, std::endian::little);
     const auto length = cursor.take<std::uint32_t>("chunk");
     const auto type = cursor.take<std::uint32_t>("chunk");
-    if (cursor.left() < length) fail(FileProblem::kTruncated, "the file ends in the middle of a chunk; it is cut off");
+    if (cursor.left() < length)
+      fail(FileProblem::kTruncated, "the file ends in the middle of a chunk; it is truncated");
     const std::string_view chunk = bytes.substr(position + kHead, length);
     if (type == kGlbJsonChunk && document_.is_null()) {
       document_ = Json::parse(chunk, nullptr, false);
@@ -81,7 +82,8 @@ class GlbReader {
   // true were 1.
   [[nodiscard]] std::size_t integer(const Json& value, const char* what) const {
     if (!value.is_number_unsigned()) {
-      fail(FileProblem::kSyntax, std::string("a '") + what + "' in its JSON is no integer from 0 on; it is damaged");
+      fail(FileProblem::kSyntax,
+           std::string("a '") + what + "' in its JSON is not a whole number of at least 0; the file is damaged");
     }
     return value.get<std::size_t>();
   }
@@ -95,7 +97,7 @@ class GlbReader {
   // An array, of so many values if that is said.
   [[nodiscard]] const Json& array_of(const Json& value, const char* what, std::size_t count = 0) const {
     if (!value.is_array() || (count != 0 && value.size() != count)) {
-      fail(FileProblem::kSyntax, std::string("'") + what + "' in its JSON is no list" +
+      fail(FileProblem::kSyntax, std::string("'") + what + "' in its JSON is not a list" +
                                      (count == 0 ? "" : " of " + std::to_string(count) + " numbers") +
                                      "; it is damaged");
     }
@@ -111,7 +113,7 @@ class GlbReader {
     const auto found = document_.find(list);
     if (found == document_.end() || !found->is_array() || index >= found->size()) {
       fail(FileProblem::kBadIndex,
-           std::string("it names item ") + std::to_string(index) + " of '" + list + "', which is not there");
+           std::string("it names item ") + std::to_string(index) + " of '" + list + "', which does not exist");
     }
     return (*found)[index];
   }
@@ -323,7 +325,7 @@ class GlbReader {
   void add_primitive(const Json& primitive, GlbMode mode, const AffineMap& placement) {
     const Json& attributes = primitive.at("attributes");
     const Accessor positions = accessor(integer_in(attributes, "POSITION"), "VEC3", 3);
-    if (positions.type != GlbComponent::kFloat) fail(FileProblem::kUnsupported, "its positions are no floats");
+    if (positions.type != GlbComponent::kFloat) fail(FileProblem::kUnsupported, "its positions are not floats");
     place(integer_in(attributes, "POSITION"), positions.count);
     std::vector<std::uint32_t> vertex;
     for (std::size_t v = 0; v < positions.count; ++v) {

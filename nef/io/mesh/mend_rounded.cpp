@@ -356,13 +356,13 @@ Rounding rounding_to_binary_floats() {
 
 std::string repair_text(const MendedMesh& rounded) {
   if (rounded.moved == 0 && rounded.dropped == 0) return "";
-  std::string text = "rounding made the mesh cross or touch itself; it was repaired:";
-  if (rounded.moved > 0) text += " " + std::to_string(rounded.moved) + " vertices went to other numbers nearby";
+  std::string text = "rounding made the mesh cross or touch itself, which was repaired:";
+  if (rounded.moved > 0) text += " " + std::to_string(rounded.moved) + " vertices were moved to nearby numbers";
   if (rounded.moved > 0 && rounded.dropped > 0) text += ",";
-  if (rounded.dropped > 0) text += " " + std::to_string(rounded.dropped) + " slivers were dropped";
+  if (rounded.dropped > 0) text += " " + std::to_string(rounded.dropped) + " slivers were removed";
   text += " (off by at most ";
   append_number(text, rounded.largest_move);
-  return text + "); --exact or .nef keep everything";
+  return text + "); write .nef or --exact for exact coordinates";
 }
 
 std::string strict_problem(const Mesh& mesh, const Monitor& monitor) { return examine(mesh, monitor).text; }

@@ -61,7 +61,7 @@ const MeshFormat& mesh_format_of(const std::string& path, const std::string& for
   const MeshFormat* found = find_mesh_format(format.empty() ? lower_extension(path) : format);
   if (found != nullptr) return *found;
   throw FileError(FileProblem::kUnreadable,
-                  path + ": the extension names no mesh format; use " + mesh_format_extensions());
+                  path + ": not the extension of a mesh format; use " + mesh_format_extensions());
 }
 
 std::string mesh_format_names(const std::function<bool(const MeshFormat&)>& suits, const std::string& conjunction) {

@@ -149,7 +149,7 @@ Mesh read_obj(std::string_view bytes, const std::string& path, MeshParts* parts)
     } else if (!is_other_keyword(word)) {
       // A file without vertices so far may be anything, and nothing of it is told.
       cursor.fail(FileProblem::kSyntax,
-                  (mesh.vertices.empty() ? "this" : in_quotes(word)) + " begins no line of an OBJ file");
+                  (mesh.vertices.empty() ? "this" : in_quotes(word)) + " does not begin a line of an OBJ file");
     }
     // What is left of the line: weights, colours, other statements (which may go on after a backslash).
     while (!next_word(cursor).empty()) {

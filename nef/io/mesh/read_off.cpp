@@ -77,7 +77,7 @@ void read_faces(TextCursor& cursor, const OffHeader& header, Mesh& mesh) {
   mesh.corners.reserve(mesh.face_begin.capacity() * 3);
   for (std::size_t f = 0; f < header.faces; ++f) {
     if (cursor.at_end()) {
-      cursor.fail(FileProblem::kWrongCount, "the header promises " + std::to_string(header.faces) +
+      cursor.fail(FileProblem::kWrongCount, "the header announces " + std::to_string(header.faces) +
                                                 " faces, but the file ends after " + std::to_string(f));
     }
     const std::int64_t size = cursor.integer("number of corners of a face");
@@ -116,7 +116,7 @@ Mesh read_off(std::string_view bytes, const std::string& path) {
   if (!cursor.at_end()) {
     cursor.fail(FileProblem::kWrongCount, "there is more than the " + std::to_string(header.vertices) +
                                               " vertices and " + std::to_string(header.faces) +
-                                              " faces that the header promises");
+                                              " faces that the header announces");
   }
   return mesh;
 }

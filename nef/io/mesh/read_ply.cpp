@@ -40,7 +40,7 @@ Type read_type(TextCursor& cursor, std::string_view word) {
   if (word == "uint" || word == "uint32") return Type::kUint32;
   if (word == "float" || word == "float32") return Type::kFloat;
   if (word == "double" || word == "float64") return Type::kDouble;
-  cursor.fail(FileProblem::kSyntax, in_quotes(word) + " is no type of a PLY property");
+  cursor.fail(FileProblem::kSyntax, in_quotes(word) + " is not a type of a PLY property");
 }
 
 bool is_integer(Type type) { return type != Type::kFloat && type != Type::kDouble; }
@@ -54,7 +54,7 @@ void read_format(TextCursor& cursor, Header& header) {
   } else if (word == "binary_big_endian") {
     header.format = Header::Format::kBig;
   } else {
-    cursor.fail(FileProblem::kSyntax, in_quotes(word) + " is no PLY format");
+    cursor.fail(FileProblem::kSyntax, in_quotes(word) + " is not a PLY format");
   }
 }
 
@@ -80,7 +80,7 @@ Header read_ply_header(TextCursor& cursor) {
   for (cursor.skip_line();; cursor.skip_line()) {
     const std::string_view word = cursor.word_in_line();
     if (word.empty() && cursor.rest().empty()) {
-      cursor.fail(FileProblem::kTruncated, "the file ends without 'end_header'; it is cut off");
+      cursor.fail(FileProblem::kTruncated, "the file ends without 'end_header'; it is truncated");
     }
     if (word == "end_header") break;
     if (word == "format") {
@@ -98,7 +98,7 @@ Header read_ply_header(TextCursor& cursor) {
     } else if (word == "property") {
       read_property(cursor, header);
     } else if (!word.empty() && word != "comment" && word != "obj_info") {
-      cursor.fail(FileProblem::kSyntax, in_quotes(word) + " begins no line of a PLY header");
+      cursor.fail(FileProblem::kSyntax, in_quotes(word) + " does not begin a line of a PLY header");
     }
   }
   if (!format) cursor.fail(FileProblem::kSyntax, "the line 'format ...' is missing");
@@ -115,7 +115,7 @@ class TextSource {
   }
   std::int64_t integer(Type /*type*/) { return cursor_.integer("index or count"); }
   void skip(Type /*type*/) {
-    if (cursor_.word().empty()) fail(FileProblem::kTruncated, "the file ends early; it is cut off");
+    if (cursor_.word().empty()) fail(FileProblem::kTruncated, "the file ends early; it is truncated");
   }
   bool done() { return cursor_.at_end(); }
   [[nodiscard]] std::size_t bytes_left() const { return cursor_.rest().size(); }
@@ -307,7 +307,7 @@ Mesh read_elements(Source& source, const Header& header) {
     }
   }
   if (!vertices) source.fail(FileProblem::kSyntax, "the file declares no element vertex");
-  if (!source.done()) source.fail(FileProblem::kWrongCount, "there is more in the file than its header promises");
+  if (!source.done()) source.fail(FileProblem::kWrongCount, "there is more in the file than its header announces");
   for (std::size_t f = 0; f < mesh.face_count(); ++f) {
     for (const std::uint32_t v : mesh.face(f)) {
       if (v < mesh.vertices.size()) continue;

@@ -31,15 +31,15 @@ bool is_text(std::string_view bytes) {
 Mesh read_binary(std::string_view bytes, const std::string& path) {
   if (bytes.size() < kHeader) {
     throw FileError(FileProblem::kTruncated, path + ": byte " + std::to_string(bytes.size()) +
-                                                 ": the file ends before the number of triangles; it is cut off, or "
+                                                 ": the file ends before the number of triangles; it is truncated, or "
                                                  "it is a text STL that does not begin with the word solid");
   }
   const std::size_t count = binary_count(bytes);
   const std::size_t have = (bytes.size() - kHeader) / kTriangle;
   if (bytes.size() != kHeader + kTriangle * count) {
     throw FileError(have < count ? FileProblem::kTruncated : FileProblem::kWrongCount,
-                    path + ": byte " + std::to_string(bytes.size()) + ": the header promises " + std::to_string(count) +
-                        " triangles, but the file has bytes for " + std::to_string(have) +
+                    path + ": byte " + std::to_string(bytes.size()) + ": the header announces " +
+                        std::to_string(count) + " triangles, but the file has bytes for " + std::to_string(have) +
                         (bytes.size() == kHeader + kTriangle * have ? "" : " and a part of one"));
   }
   Mesh mesh;
@@ -73,7 +73,7 @@ void expect(TextCursor& cursor, std::string_view keyword) {
   if (word == keyword) return;
   cursor.fail(word.empty() ? FileProblem::kTruncated : FileProblem::kSyntax,
               "the word '" + std::string(keyword) + "' should be here, not " +
-                  (word.empty() ? "the end of the file; it is cut off" : in_quotes(word)));
+                  (word.empty() ? "the end of the file; it is truncated" : in_quotes(word)));
 }
 
 // A facet after its first word.
@@ -91,7 +91,7 @@ void read_facet(TextCursor& cursor, Mesh& mesh, VertexMerger& merger, Rational3&
   }
   if (word != "endloop") {
     cursor.fail(word.empty() ? FileProblem::kTruncated : FileProblem::kSyntax,
-                word.empty() ? "the file ends in the middle of a facet; it is cut off"
+                word.empty() ? "the file ends in the middle of a facet; it is truncated"
                              : "the word 'vertex' or 'endloop' should be here, not " + in_quotes(word));
   }
   if (mesh.corners.size() - first < 3) {
@@ -115,7 +115,7 @@ Mesh read_text(std::string_view bytes, const std::string& path) {
     for (; word == "facet"; word = cursor.word()) read_facet(cursor, mesh, merger, point);
     if (word != "endsolid") {
       cursor.fail(word.empty() ? FileProblem::kTruncated : FileProblem::kSyntax,
-                  word.empty() ? "the file ends without 'endsolid'; it is cut off"
+                  word.empty() ? "the file ends without 'endsolid'; it is truncated"
                                : "the word 'facet' or 'endsolid' should be here, not " + in_quotes(word));
     }
     cursor.skip_line();

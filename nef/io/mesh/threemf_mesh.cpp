@@ -145,7 +145,7 @@ class PartReader {
 
   Rational number(const std::string& text) const {
     Rational value;
-    if (!parse_number(text, value)) fail(FileProblem::kNotANumber, in_quotes(text) + " is no number");
+    if (!parse_number(text, value)) fail(FileProblem::kNotANumber, in_quotes(text) + " is not a number");
     return value;
   }
 
@@ -153,7 +153,8 @@ class PartReader {
     std::uint32_t value = 0;
     const char* end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, value);
-    if (error != std::errc() || stop != end) fail(FileProblem::kBadIndex, in_quotes(text) + " is no index of a vertex");
+    if (error != std::errc() || stop != end)
+      fail(FileProblem::kBadIndex, in_quotes(text) + " is not an index of a vertex");
     return value;
   }
 

@@ -100,7 +100,7 @@ void XmlEvents::parse(std::string_view piece, bool last) {
   }
   if (status == XML_STATUS_ERROR) {
     throw FileError(FileProblem::kSyntax,
-                    place() + ": this is no XML: " + XML_ErrorString(XML_GetErrorCode(state_->parser)));
+                    place() + ": not valid XML: " + XML_ErrorString(XML_GetErrorCode(state_->parser)));
   }
   state_->parsed += piece.size();
   const XML_Index token = XML_GetCurrentByteIndex(state_->parser);

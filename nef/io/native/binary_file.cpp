@@ -14,7 +14,7 @@ namespace nef {
 BinaryFile::BinaryFile(std::string_view bytes, const std::string& path) : bytes_(bytes), path_(path) {
   const std::size_t least = kNativeMagic.size() + 14 * sizeof(std::uint32_t) + sizeof(std::uint64_t);
   if (bytes_.size() < least) {
-    throw FileError(FileProblem::kTruncated, path_ + ": the file ends early; it is cut off");
+    throw FileError(FileProblem::kTruncated, path_ + ": the file ends early; it is truncated");
   }
   at_ = kNativeMagic.size();
   const auto version = column<std::uint32_t>(1)[0];
@@ -26,8 +26,7 @@ BinaryFile::BinaryFile(std::string_view bytes, const std::string& path) : bytes_
   std::uint64_t checksum = 0;
   std::memcpy(&checksum, bytes_.data() + end, sizeof(checksum));
   if (checksum != XXH3_64bits(bytes_.data(), end)) {
-    throw FileError(FileProblem::kSyntax,
-                    path_ + ": the file is damaged or cut off: its checksum is not that of its bytes");
+    throw FileError(FileProblem::kSyntax, path_ + ": the file is damaged or truncated: its checksum does not match");
   }
   bytes_ = bytes_.substr(0, end);
   width_ = column<std::uint32_t>(1)[0];
@@ -44,7 +43,7 @@ BinaryFile::BinaryFile(std::string_view bytes, const std::string& path) : bytes_
 }
 
 void BinaryFile::corrupt(const std::string& what) const {
-  throw FileError(FileProblem::kSyntax, path_ + ": the file is no valid polyhedron: " + what);
+  throw FileError(FileProblem::kSyntax, path_ + ": the file is not a valid polyhedron: " + what);
 }
 
 }  // namespace nef

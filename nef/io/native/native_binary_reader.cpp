@@ -120,7 +120,7 @@ class BinaryReader {
     file_.demand(end.svertices.index() == n_.svertices && end.shalfedges.index() == n_.shalfedges &&
                      end.sloops == n_.sloops && end.sfaces.index() == n_.sfaces &&
                      total == std::uint64_t{n_.svertices} + n_.shalfedges + n_.sloops + n_.sfaces,
-                 "its vertices have not the items that it holds");
+                 "its vertices do not have the items that it contains");
     name_svertex_owners(c_);
     name_pair_owners(c_);
   }

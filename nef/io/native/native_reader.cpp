@@ -37,12 +37,12 @@ class Reader {
 
  private:
   [[noreturn]] void corrupt(const std::string& what) const {
-    cursor_.fail(FileProblem::kSyntax, "the file is no valid polyhedron: " + what);
+    cursor_.fail(FileProblem::kSyntax, "the file is not a valid polyhedron: " + what);
   }
 
   std::string_view word() {
     const std::string_view found = cursor_.word();
-    if (found.empty()) cursor_.fail(FileProblem::kTruncated, "the file ends early; it is cut off");
+    if (found.empty()) cursor_.fail(FileProblem::kTruncated, "the file ends early; it is truncated");
     return found;
   }
 

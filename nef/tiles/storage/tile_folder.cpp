@@ -54,7 +54,7 @@ class FolderWriter {
     if (!fs::is_directory(folder_)) {
       throw FileError(
           FileProblem::kUnreadable,
-          folder_.string() + ": no folder for tiles can be made here; give another name, or remove what is there");
+          folder_.string() + ": the folder for tiles cannot be created; give another name, or remove what is there");
     }
     index_ = "nef-tiles " + std::to_string(kVersion) + "\nlimit " + std::to_string(set.tiling().limit) + "\n";
     add(set.tree());
@@ -151,10 +151,10 @@ class FolderReader {
     const std::size_t end = bytes_.rfind("end ");
     if (end == std::string::npos || end == 0 || bytes_[end - 1] != '\n') {
       cursor_.fail(FileProblem::kTruncated,
-                   "the index of the tiles ends too early; write the set anew from its source");
+                   "the index of the tiles ends too early; write the set again from its source");
     }
     if (bytes_.substr(end) != "end " + hash_of(std::string_view(bytes_).substr(0, end)) + "\n") {
-      cursor_.fail(FileProblem::kSyntax, "the index of the tiles was damaged; write the set anew from its source");
+      cursor_.fail(FileProblem::kSyntax, "the index of the tiles was damaged; write the set again from its source");
     }
   }
 
@@ -162,7 +162,7 @@ class FolderReader {
     const std::string_view word = cursor_.word();
     if (word != wanted) {
       cursor_.fail(FileProblem::kSyntax,
-                   "expected '" + std::string(wanted) + "', not " + in_quotes(word) + "; write the set anew");
+                   "expected '" + std::string(wanted) + "', not " + in_quotes(word) + "; write the set again");
     }
   }
 
@@ -192,7 +192,7 @@ class FolderReader {
   }
 
   TileRef tile(const std::string& name) {
-    if (!is_tile_name(name)) cursor_.fail(FileProblem::kSyntax, in_quotes(name) + " is no name of a tile");
+    if (!is_tile_name(name)) cursor_.fail(FileProblem::kSyntax, in_quotes(name) + " is not the name of a tile");
     TileNode node;
     node.kind = Kind::kTile;
     node.tiles = 1;
@@ -226,7 +226,7 @@ class FolderReader {
       end = std::from_chars(digits.data(), digits.data() + digits.size(), value);  // inf
     }
     if (end.ec != std::errc() || end.ptr != digits.data() + digits.size()) {
-      cursor_.fail(FileProblem::kNotANumber, in_quotes(word) + " is no side of a box");
+      cursor_.fail(FileProblem::kNotANumber, in_quotes(word) + " is not a side of a box");
     }
     return negative ? -value : value;
   }

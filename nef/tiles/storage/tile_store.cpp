@@ -63,9 +63,10 @@ std::string tile_file_name(std::string_view bytes) { return content_hash(bytes) 
 Polyhedron read_tile(const fs::path& path, const Monitor& monitor) {
   const std::string bytes = read_file(path.string());
   if (tile_file_name(bytes) != hash_part(path) + kExtension) {
-    throw FileError(FileProblem::kSyntax, path.string() +
-                                              ": the tile is not the one that its name tells; it was damaged or "
-                                              "replaced: write the set anew from its source");
+    throw FileError(
+        FileProblem::kSyntax,
+        path.string() +
+            ": the tile does not match its name; it was damaged or replaced: write the set again from its source");
   }
   return read_native_binary(bytes, path.string(), NativeContents::kTile, monitor);
 }
@@ -217,7 +218,7 @@ const fs::path& TileStore::own_folder() {
   std::string name = (parent_ / ".nef-XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr) {
     throw FileError(FileProblem::kUnreadable,
-                    parent_.string() + ": no folder for tiles can be made here; is there room, and a right to write?");
+                    parent_.string() + ": the folder for tiles cannot be created; check free space and permissions");
   }
   folder_ = name;
   folder_lock_ = lock_folder(folder_);

@@ -39,7 +39,7 @@ Integer integer_of(py::handle number) {
 Rational quotient(py::handle numerator, py::handle denominator) {
   Rational result(integer_of(steal_or_throw(PyNumber_Index(numerator.ptr()))),
                   integer_of(steal_or_throw(PyNumber_Index(denominator.ptr()))));
-  if (result.get_den() == 0) throw InputError("a fraction with the denominator 0 is no number");
+  if (result.get_den() == 0) throw InputError("a fraction with the denominator 0 is not a number");
   result.canonicalize();
   return result;
 }
@@ -79,7 +79,7 @@ Rational to_rational(py::handle number) {
       return quotient(ratio[0], ratio[1]);
     } catch (py::error_already_set& error) {
       if (!error.matches(PyExc_OverflowError) && !error.matches(PyExc_ValueError)) throw;
-      throw InputError(py::cast<std::string>(py::repr(number)) + " is no finite number");
+      throw InputError(py::cast<std::string>(py::repr(number)) + " is not a finite number");
     }
   }
   throw py::type_error("a number is needed (int, float, Fraction, Decimal or text), not " +

@@ -135,7 +135,7 @@ TEST_CASE("a mesh without vertices and faces is the empty set, and one with vert
     cloud.vertices = {{0, 0, 0}, {1, 0, 0}};
     CHECK_THROWS_WITH(from_mesh(cloud, MeshOptions{.as_surface = surface}), Catch::Contains("2 vertices but no faces"));
   }
-  CHECK(notes == Messages(2, "the mesh has no faces: it is the empty set"));
+  CHECK(notes == Messages(2, "the mesh has no faces, so it is the empty set"));
 }
 
 TEST_CASE("meshes that somebody has damaged become the same, or are refused alike, on several threads", "[threads]") {

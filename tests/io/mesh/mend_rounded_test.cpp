@@ -165,7 +165,7 @@ TEST_CASE("Surfaces, lines and points leave", "[rounding]") {
   // What is missing at the border of a sheet is told.
   notes.clear();
   write_polyhedron(folder.file("o.off"), subtract(sheet, make_segment({0, 0, 0}, {3, 0, 0})), {}, &notes);
-  CHECK(has(notes, "does not belong to the set"));
+  CHECK(has(notes, "written as closed"));
 }
 
 TEST_CASE("GLB: what is written is read, and nodes are placed exactly", "[rounding]") {

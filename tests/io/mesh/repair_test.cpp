@@ -71,7 +71,7 @@ TEST_CASE("A sound mesh is left alone", "[repair]") {
   CHECK(repaired.mesh.corners == mesh.corners);
 }
 
-TEST_CASE("Faces that are turned at random, doubled, and components turned over", "[repair]") {
+TEST_CASE("Faces that are turned at random, doubled, and components flipped", "[repair]") {
   const Polyhedron hollow = regularize(subtract(make_box({0, 0, 0}, {9, 9, 9}), make_box({2, 2, 2}, {5, 5, 5})));
   const Polyhedron set = unite(unite(hollow, make_box({3, 3, 3}, {4, 4, 4})), make_box({11, 0, 0}, {12, 1, 1}));
   const Mesh mesh = mesh_of(set);
@@ -249,7 +249,8 @@ TEST_CASE("Faces that cross are resolved by the rule, and it is said what is cou
   CHECK(both.problem.empty());
   CHECK(equal(both.resolved->set, unite(a, b)));
   REQUIRE(both.done.size() == 2);
-  CHECK(both.done[0].find("pairs of faces cross: what is enclosed at least once is taken") != std::string::npos);
+  CHECK(both.done[0].find("pairs of faces cross; selected points that are enclosed at least once") !=
+        std::string::npos);
   CHECK(both.done[1] == "1 part (volume 1, 6.67 %) is enclosed twice and counts once");
   CHECK(both.resolved->volumes.at(2).measured.value == Approx(1));
   CHECK_FALSE(repair_mesh(together({a, b})).problem.empty());
@@ -257,7 +258,7 @@ TEST_CASE("Faces that cross are resolved by the rule, and it is said what is cou
   // What crosses nothing and is inside out is turned over, what crosses others is left as it is.
   const RepairedMesh three = repair_mesh(turned_over(together({a, b, apart}), 2 * faces), kUniting);
   REQUIRE(three.resolved);
-  CHECK(three.done[0] == "1 component turned over");
+  CHECK(three.done[0] == "1 component flipped");
   CHECK(equal(three.resolved->set, unite(unite(a, b), apart)));
   const RepairedMesh less = repair_mesh(turned_over(together({make_box({0, 0, 0}, {4, 4, 4}), b}), faces), kUniting);
   CHECK(less.resolved.has_value() == false);  // b lies in the other box: a cavity
@@ -329,14 +330,14 @@ TEST_CASE("Bent faces are the same surface however their corners are listed", "[
   }
 }
 
-TEST_CASE("A mesh of bent faces that is turned over is what its solid was made of", "[repair][crossings]") {
+TEST_CASE("A mesh of bent faces that is flipped is what its solid was made of", "[repair][crossings]") {
   std::mt19937 random(13);
   for (int round = 0; round < 20; ++round) {
     const Mesh mesh = bent_box(random, Rational(-1, 2), true);  // the notch goes through the bottom
     const RepairedMesh repaired = repair_mesh(mesh, kUniting);
     REQUIRE(repaired.problem.empty());
     REQUIRE(repaired.resolved);
-    CHECK(repaired.done.front() == "1 component turned over");
+    CHECK(repaired.done.front() == "1 component flipped");
     CHECK(equal(from_mesh(repaired.mesh, {.crossings = Crossings::kUnion}), repaired.set));
     double sum = 0;
     for (const auto& [winding, entry] : repaired.resolved->volumes) sum += winding * entry.measured.value;
@@ -344,7 +345,7 @@ TEST_CASE("A mesh of bent faces that is turned over is what its solid was made o
   }
 }
 
-TEST_CASE("A component that stands on another one is turned over", "[repair][crossings]") {
+TEST_CASE("A component that stands on another one is flipped", "[repair][crossings]") {
   const Polyhedron a = make_box({0, 0, 0}, {4, 4, 1});
   const Polyhedron b = make_box({1, 1, 1}, {2, 2, 2});
   const Mesh mesh = turned_over(together({a, b}), mesh_of(a).face_count());
@@ -463,7 +464,7 @@ TEST_CASE("Holes get lids if these are small", "[repair][lids]") {
   const RepairedMesh closed = repair_mesh(open, {.close_percent = 17});
   CHECK(closed.has_lids);
   CHECK(closed.flat_holes == 1);
-  CHECK(closed.done.back() == "1 hole closed by lids of 17 % of the area, 1 of them flat: a guess");
+  CHECK(closed.done.back() == "1 hole closed by lids of 17 % of the area, 1 of them flat (a guess)");
   CHECK(equal(from_mesh(closed.mesh), cube));
 
   // A corner of a cube is missing: the least lid is the triangle, and the cube loses a tetrahedron.
@@ -487,7 +488,7 @@ TEST_CASE("Holes get lids if these are small", "[repair][lids]") {
   const RepairedMesh flat = repair_mesh(sheet, {.close_percent = 10, .crossings = Crossings::kUnion});
   CHECK(flat.is_flat);
   CHECK_THAT(advice_about(flat, 10),
-             Catch::Contains("enclose nothing under any lid") && Catch::Contains("--as-surface"));
+             Catch::Contains("no lid makes them enclose anything") && Catch::Contains("--as-surface"));
   CHECK_FALSE(repair_mesh(open, {.close_percent = 10}).is_flat);
 }
 
@@ -497,13 +498,13 @@ TEST_CASE("Import closes holes with the lids that a repair would make, and notes
   polygons.keep_polygons = true;
   const Mesh whole = to_mesh(cube, polygons).mesh;
   const Mesh open = changed(whole, [](auto& rings) { rings.pop_back(); });
-  CHECK_THROWS_WITH(from_mesh(open), Catch::EndsWith("--close (close=10 in Python) closes holes with lids, a guess"));
+  CHECK_THROWS_WITH(from_mesh(open), Catch::EndsWith("--close (close=10 in Python) closes holes by a guess"));
   CHECK_THROWS_WITH(
       from_mesh(open, {.close_percent = 10}),
       Catch::EndsWith("open there; lids for its hole are more than 10 % of the area, --close=17 accepts them"));
   Messages notes;
   CHECK(equal(from_mesh(open, {.close_percent = 17}, &notes), cube));
-  CHECK(notes == Messages{"1 hole closed by lids of 17 % of the area, 1 of them flat: a guess"});
+  CHECK(notes == Messages{"1 hole closed by lids of 17 % of the area, 1 of them flat (a guess)"});
   // What needs no repair is taken as it is, and a surface stays one.
   notes.clear();
   CHECK(equal(from_mesh(whole, {.close_percent = 10}, &notes), cube));
@@ -511,9 +512,9 @@ TEST_CASE("Import closes holes with the lids that a repair would make, and notes
   CHECK(notes.empty());
   // Turned faces are turned back; strictness is kept.
   const Mesh mixed = changed(open, [](auto& rings) { std::reverse(rings[0].begin(), rings[0].end()); });
-  CHECK_THROWS_WITH(from_mesh(mixed), Catch::Contains("only") || Catch::Contains("nef repair turns faces"));
+  CHECK_THROWS_WITH(from_mesh(mixed), Catch::Contains("only") || Catch::Contains("nef repair flips faces"));
   CHECK(equal(from_mesh(mixed, {.close_percent = 17}, &notes), cube));
-  CHECK(notes.front() == "1 face turned to fit the neighbours");
+  CHECK(notes.front() == "1 face flipped to fit their neighbours");
   Mesh bent = open;
   bent.vertices[0] = {Rational(-1, 3), Rational(-1, 5), Rational(-1, 7)};
   CHECK_THROWS_WITH(from_mesh(bent, {.strict = true, .close_percent = 40}), Catch::Contains("plan"));

@@ -371,13 +371,14 @@ TEST_CASE("Rules say what they do, and refusals which rule to take", "[crossings
   Soup soup;
   soup.add(box({0, 0, 0}, {2, 2, 2}));
   soup.add(box({1, 1, 1}, {3, 3, 3}));
-  CHECK_THROWS_WITH(from_mesh(soup.mesh), Catch::Contains("6 pairs of faces cross; crossings=\"union\" takes what is "
-                                                          "enclosed at least once"));
+  CHECK_THROWS_WITH(
+      from_mesh(soup.mesh),
+      Catch::Contains("6 pairs of faces cross; crossings=\"union\" selects points that are enclosed at least once"));
   Messages notes;
   const Polyhedron both = from_mesh(soup.mesh, {.crossings = Crossings::kUnion}, &notes);
   CHECK(volume(both) == 15);
   REQUIRE(notes.size() == 1);
-  CHECK(notes[0] == "6 pairs of faces cross: what is enclosed at least once was taken");
+  CHECK(notes[0] == "6 pairs of faces cross; selected points that are enclosed at least once");
   CHECK(volume(from_mesh(soup.mesh, {.crossings = Crossings::kOdd})) == 14);
 
   // One in the other, without contact.
@@ -388,8 +389,9 @@ TEST_CASE("Rules say what they do, and refusals which rule to take", "[crossings
   notes.clear();
   CHECK(equal(from_mesh(nested.mesh, {.crossings = Crossings::kUnion}, &notes), make_box({0, 0, 0}, {4, 4, 4})));
   REQUIRE(notes.size() == 1);
-  CHECK(notes[0] ==
-        "the mesh encloses parts of space several times or inside out: what is enclosed at least once was taken");
+  CHECK(
+      notes[0] ==
+      "the mesh encloses parts of space several times or inside out; selected points that are enclosed at least once");
 
   // A clean mesh is none of their business.
   notes.clear();
@@ -459,7 +461,7 @@ TEST_CASE("A soup of open sheets is guessed by how its faces wind, and that is t
   const Polyhedron guessed = from_mesh(soup.mesh, {.crossings = Crossings::kGuess}, &notes);
   CHECK(equal(guessed, make_box({-1, -1, -1}, {1, 1, 1})));
   REQUIRE(notes.size() == 1);
-  CHECK(notes[0].find("what the faces wind around by half at least, a guess, was taken") != std::string::npos);
+  CHECK(notes[0].find("points with a winding number of at least one half (a guess)") != std::string::npos);
   // All that is enclosed has the shaft, too.
   CHECK(equal(from_mesh(soup.mesh, {.crossings = Crossings::kOutside}), make_box({-1, -1, -1}, {2, 1, 1})));
   // One square that is turned wrongly is outvoted.

@@ -74,7 +74,7 @@ TEST_CASE("3MF: what is written is read, doubles and all", "[threemf]") {
   CHECK_THROWS_AS(write_polyhedron(folder.file("d.3mf"), set, exact), FileError);
 }
 
-TEST_CASE("3MF: components are placed exactly, mirrored ones turned over", "[threemf]") {
+TEST_CASE("3MF: components are placed exactly, mirrored ones flipped", "[threemf]") {
   const std::string tetrahedron_object = object("1", kTetrahedronModel);
   CHECK(equal(read(archive(model(tetrahedron_object, "<item objectid='1'/>"))), tetrahedron()));
   // Twice: moved by a component in a component, and mirrored and stretched in x by the build.
@@ -128,9 +128,9 @@ TEST_CASE("3MF: damaged and malicious files are refused", "[threemf]") {
     }
     if (read) CHECK(read->vertices == mesh.vertices);
   }
-  check_refused("PK\x03\x04 but nothing else", "no zip archive");
+  check_refused("PK\x03\x04 but nothing else", "not a zip archive");
   check_refused(zip_bytes({{"readme.txt", "hello"}}), "3D/3dmodel.model");
-  check_refused(archive("<model><resources>"), "no XML");
+  check_refused(archive("<model><resources>"), "not valid XML");
   check_refused(archive("<!DOCTYPE model [<!ENTITY a \"aaaa\">]><model>&a;</model>"), "document type");
   const auto with = [](const std::string& from, const std::string& to) {
     std::string text = model(object("1", kTetrahedronModel), "<item objectid='1'/>");
@@ -138,8 +138,8 @@ TEST_CASE("3MF: damaged and malicious files are refused", "[threemf]") {
     return archive(text);
   };
   check_refused(with("v3='1'", "v3='4'"), "names vertex 4");
-  check_refused(with("v3='1'", "v3='-1'"), "no index");
-  check_refused(with("x='0.1'", "x='nan'"), "no number");
+  check_refused(with("v3='1'", "v3='-1'"), "not an index");
+  check_refused(with("x='0.1'", "x='nan'"), "not a number");
   check_refused(with("x='0.1'", ""), "lacks the attribute 'x'");
   check_refused(with("item objectid='1'", "item objectid='7'"), "no object '7'");
   check_refused(archive(model(object("1", kTetrahedronModel), "<item objectid='1' transform='1 0 0'/>")), "3 numbers");

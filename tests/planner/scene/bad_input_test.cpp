@@ -41,7 +41,7 @@ TEST_CASE("bad scenes") {
   const std::string free = R"J("obstacles": [], )J";
   const std::vector<Bad> scenes{
       {"", "the file is empty"},
-      {"no scene", "this is no JSON"},
+      {"no scene", "not a JSON file"},
       {"[1, 2]", "JSON object"},
       {R"J({"robot": )J", "not valid JSON"},
       {"{\n\"robot\": \"box(0,0,0, 1,1,1)\",\n oops}", "scene.json:3: not valid JSON near"},
@@ -163,7 +163,7 @@ TEST_CASE("bad usage") {
            {scene("corner") + " --quick", "a scene with a rotation excludes --quick"},
            {scene("corner") + " -o x.path", "the extension must be .json, .txt, .csv, .glb or .html"},
            {good + "--path missing.txt", "missing.txt: no such file"},
-           {good + "--path " + words, "words.txt:1: 'hello' in 'hello world' is no number"},
+           {good + "--path " + words, "words.txt:1: 'hello' in 'hello world' is not a number"},
            {good + "--path " + two, "two.txt:1: expected x y z, or x y z qx qy qz qw, not 2 numbers"},
            {good + "--path " + empty, "the file is empty"},
            {good + "--path " + object, "holds no 'path'"},

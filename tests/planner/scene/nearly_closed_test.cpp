@@ -195,7 +195,7 @@ TEST_CASE("scenes take meshes that cross themselves by the rule, and close holes
   Messages messages;
   CHECK(equal(read_shape_file(overlapping, scene_meshes(), &messages), unite(a, b)));
   REQUIRE(messages.size() == 1);
-  CHECK_THAT(messages[0], Catch::EndsWith("what is enclosed at least once was taken"));
+  CHECK_THAT(messages[0], Catch::EndsWith("selected points that are enclosed at least once"));
   const Polyhedron odd = read_shape_file(overlapping, {.crossings = Crossings::kOdd}, nullptr);
   CHECK(equal(odd, regularize(symmetric_difference(a, b))));
   CHECK_THROWS_WITH(read_shape_file(overlapping, {}, nullptr), Catch::Contains("union"));

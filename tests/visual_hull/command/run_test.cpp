@@ -171,11 +171,11 @@ TEST_CASE("Bad use and bad input: one line, exit code 2") {
   fails(run(data("letters/nef.vsh") + " --box 0,0,0,0,1,1"), "flat along x");
   fails(run(data("letters/nef.vsh") + " --frobnicate"), "--frobnicate");
   fails(run(data("letters/nef.vsh") + " --threads -1"), "--threads");
-  fails(run(data("letters/nef.vsh") + " --simplify nan"), "--simplify: a number from 0 on is needed, not 'nan'");
-  fails(run(data("letters/nef.vsh") + " --at-least 0"), "--at-least: a positive number is needed, not '0'");
+  fails(run(data("letters/nef.vsh") + " --simplify nan"), "--simplify: expected a number of at least 0, not 'nan'");
+  fails(run(data("letters/nef.vsh") + " --at-least 0"), "--at-least: expected a positive number, not '0'");
   fails(run(data("letters") + " --turntable 12"), "give --K f,cx,cy, --radius R and --height H");
   fails(run(data("letters") + " --turntable 0 --K 9,5,5 --radius 4"), "--turntable N: from 2 to 100000");
-  fails(run(data("letters/nef.vsh") + " --box 0,0,0,nan,1,1"), "'nan' in '0,0,0,nan,1,1' is no number");
+  fails(run(data("letters/nef.vsh") + " --box 0,0,0,nan,1,1"), "'nan' in '0,0,0,nan,1,1' is not a number");
   fails(run(data("letters/nef.vsh") + " --threshold bright"), "neither a number nor otsu");
   fails(run(data("letters/nef.vsh") + " --channel infrared"), "--channel");
   fails(run(data("letters/nef.vsh") + " --min-area -1"), "--min-area");

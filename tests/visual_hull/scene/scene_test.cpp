@@ -199,7 +199,7 @@ TEST_CASE("Malformed scenes are refused in one line that says where") {
   CHECK_THROWS_WITH(read_scene(s.folder()), Contains("is a directory"));
   CHECK_THROWS_WITH(read_scene(s.folder() / "absent"), Contains("no such file"));
   CHECK_THROWS_WITH(parse_box("1,2,3"), Contains("six numbers"));
-  CHECK_THROWS_WITH(parse_box("0,0,0,1,x,1"), Contains("'x' in '0,0,0,1,x,1' is no number"));
+  CHECK_THROWS_WITH(parse_box("0,0,0,1,x,1"), Contains("'x' in '0,0,0,1,x,1' is not a number"));
   CHECK_THROWS_WITH(parse_threshold("bright"), Contains("neither a number nor otsu"));
 }
 

@@ -49,18 +49,20 @@ double apply_steps(StepSequence& sequence, const std::vector<BooleanStep>& steps
 }
 
 void add_apply_options(CLI::App& command, Session&, ApplyFlags& flags) {
-  command.add_option("--steps", flags.steps, "A file with one operator and expression a line; - for standard input")
+  command
+      .add_option("--steps", flags.steps, "File of steps, one operator and expression per line; - reads standard input")
       ->required()
       ->type_name("FILE");
   add_tile_flags(&command, flags.tiles);
   command.footer(
       "A step is one line: + A (union), - A (difference), * A (intersection) or ^ A (symmetric difference), where A "
       "is\n"
-      "an expression as in nef eval; files in it are relative to the file of steps. '#' begins a comment.\n"
+      "an expression as in nef eval; its file names are relative to the file of steps. '#' begins a comment.\n"
       "  - box(0,0,0, 1,1,1)\n"
       "  + translate(file(\"boss.off\"), 3,0,0)   # a comment\n"
-      "Output is in canonical order: the same bytes whatever --tiles and --threads. --json tells the seconds of each\n"
-      "step and the number of tiles after it.");
+      "The output is in canonical order: its bytes do not depend on --tiles and --threads. --json reports the seconds "
+      "of\n"
+      "each step and the number of tiles after it.");
 }
 
 void run_apply(Session& session, const ApplyFlags& flags, const CommandExtensions& extensions) {
@@ -88,8 +90,8 @@ void run_apply(Session& session, const ApplyFlags& flags, const CommandExtension
 
 Commands apply_commands(const CommandExtensions& extensions) {
   return {with_flags<ApplyFlags>({.name = "apply",
-                                  .description = "A set changed by many steps, in tiles where that pays",
-                                  .operands = "The set to begin with, as a file",
+                                  .description = "Apply many Boolean steps to a set, in tiles when that saves time",
+                                  .operands = "File of the set to start from",
                                   .output = Output::kOptional},
                                  add_apply_options, [extensions](Session& session, const ApplyFlags& flags) {
                                    run_apply(session, flags, extensions);

@@ -39,16 +39,16 @@ void require_legal(const Mesh& mesh, const Monitor& monitor) {
   try {
     from_mesh(mesh, {.monitor = monitor});
   } catch (const InputError& error) {
-    throw InputError(std::string("the smoothed surface bounds no solid (") + error.what() +
-                     "): subdivide it by midpoints once before, or smooth it fewer times");
+    throw InputError(std::string("the smoothed surface does not bound a solid (") + error.what() +
+                     "); subdivide once with --scheme midpoint first, or smooth it fewer times");
   }
 }
 
 void add_subdivide_options(CLI::App& command, Session&, SubdivideFlags& flags) {
-  command.add_option("--times", flags.times, "How often; each time there are four times as many triangles")
+  command.add_option("--times", flags.times, "Number of subdivisions; each multiplies the triangles by four")
       ->check(CLI::Range(1U, 12U))
       ->capture_default_str();
-  command.add_option("--scheme", flags.scheme, "Midpoint keeps the surface, exactly; loop smooths it")
+  command.add_option("--scheme", flags.scheme, "midpoint keeps the surface exactly; loop smooths it")
       ->check(CLI::IsMember({"midpoint", "loop"}))
       ->capture_default_str();
 }
@@ -74,19 +74,22 @@ void run_subdivide(Session& session, const SubdivideFlags& flags) {
 }  // namespace
 
 Commands mesh_commands() {
-  return {with_flags<std::size_t>(
-              {.name = "decimate",
-               .description = "A mesh of fewer triangles for a solid, legal still, and how far it is from it",
-               .output = Output::kRequired},
-              [](CLI::App& command, Session&, std::size_t& triangles) {
-                command.add_option("--triangles", triangles, "How many to aim at")->required()->check(positive());
-              },
-              run_decimate),
-          with_flags<SubdivideFlags>(
-              {.name = "subdivide",
-               .description = "A mesh of more triangles for a solid: each in four, the same surface or smoothed",
-               .output = Output::kRequired},
-              add_subdivide_options, run_subdivide)};
+  return {
+      with_flags<std::size_t>(
+          {.name = "decimate",
+           .description = "Simplify a solid to a valid mesh with fewer triangles, and report how far apart the two are",
+           .output = Output::kRequired},
+          [](CLI::App& command, Session&, std::size_t& triangles) {
+            command.add_option("--triangles", triangles, "Number of triangles to aim for")
+                ->required()
+                ->check(positive());
+          },
+          run_decimate),
+      with_flags<SubdivideFlags>(
+          {.name = "subdivide",
+           .description = "Split each triangle of a solid into four, on the same surface or smoothed",
+           .output = Output::kRequired},
+          add_subdivide_options, run_subdivide)};
 }
 
 }  // namespace nef

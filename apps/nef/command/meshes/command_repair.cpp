@@ -187,7 +187,7 @@ std::vector<std::string> lines_about_lost_parts(const std::vector<CountsOfPart>&
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const auto of = [&](FaceFate fate) { return counts[i][static_cast<std::size_t>(fate)]; };
     if (parts.names[i].empty() || of(FaceFate::kKept) + of(FaceFate::kTurned) + of(FaceFate::kCut) > 0) continue;
-    result.push_back("nothing is left of the part " + in_quotes(parts.names[i]) + ": " +
+    result.push_back("no face remains of the part " + in_quotes(parts.names[i]) + ": " +
                      (of(FaceFate::kInside) > 0 ? "it lies inside" : "its faces are copies or have no area"));
   }
   return result;
@@ -209,11 +209,10 @@ void add_repair_options(CLI::App& command, Session&, RepairFlags& flags) {
   add_close_option(command, flags.options.close_percent);
   add_crossings_option(command, flags.options.crossings);
   command
-      .add_option(
-          "--record", flags.record,
-          "Write the mesh that came in with its faces in groups by what became of them: kept, turned, cut and cut_off "
-          "(pieces of faces that cross others), inside (nothing of them is left), copy, no_area, and added ones (.obj; "
-          "colours in .off, .ply and .glb); or the numbers of the faces (.json)")
+      .add_option("--record", flags.record,
+                  "Write the input mesh with its faces grouped by what happened to them: kept, turned, cut and cut_off "
+                  "(pieces of faces that cross others), inside (removed), copy, no_area and added (.obj; as colours in "
+                  ".off, .ply and .glb); or only the numbers of the faces (.json)")
       ->type_name("FILE");
 }
 
@@ -233,10 +232,10 @@ void run_repair(Session& session, RepairFlags& flags) {
   store(session, repaired);
   for (const std::string& line : repaired.done) session.say(line);
   session.note_all(repaired.notes);
-  session.say(solid ? (repaired.done.empty() ? "nothing to repair" : "the mesh bounds a solid now")
-                    : "the mesh bounds no solid still: " + repaired.problem +
-                          advice_about(repaired, options.close_percent) +
-                          (session.mesh_file.lenient ? "" : "; no file is written (--lenient writes what there is)"));
+  session.say(
+      solid ? (repaired.done.empty() ? "nothing to repair" : "the mesh now bounds a solid")
+            : "still not a valid solid: " + repaired.problem + advice_about(repaired, options.close_percent) +
+                  (session.mesh_file.lenient ? "" : "; no file was written (--lenient writes the mesh as it is)"));
   session.exit_code = solid ? kYes : kNo;
   if (!session.json) return;
   session.print("repair", {{"ok", solid},
@@ -254,10 +253,9 @@ void run_repair(Session& session, RepairFlags& flags) {
 Commands repair_commands() {
   return {with_flags<RepairFlags>(
       {.name = "repair",
-       .description =
-           "Make a mesh that nearly bounds a solid bound one, and say how. Exit code 0 if it does then, 1 if "
-           "not; then a file is written with --lenient only",
-       .operands = "The mesh, as a file",
+       .description = "Repair a mesh so that it bounds a solid, and report each change. Exit code 0 if it then does, 1 "
+                      "if not (and a file is written only with --lenient)",
+       .operands = "File of the mesh",
        .reads_meshes = false,
        .output = Output::kRequired},
       add_repair_options, run_repair)};

@@ -76,7 +76,7 @@ Operands load_parts(Session& session) {
 
 // The boundary of the result, face by face with the inputs that it comes from.
 void finish_with_origins(Session& session, const Operation& operation) {
-  if (session.output.empty()) throw InputError("--origins writes a mesh: give it a name with -o");
+  if (session.output.empty()) throw InputError("--origins writes a mesh: name its file with -o");
   const Operands operands = operation.step == BooleanOperator::kUnion
                                 ? load_parts(session)
                                 : Operands{session.load_all(session.inputs), short_names(session.inputs)};
@@ -187,10 +187,9 @@ bool run_by_regions(Session& session, const Operation& operation, const TileChoi
 
 void add_boolean_options(CLI::App& command, Session& session, TileFlags& flags) {
   command
-      .add_flag(
-          "--origins", session.origins,
-          "Write from which operand each face comes: groups in OBJ, colours in OFF, PLY and GLB. Of a union, the parts "
-          "of an OBJ, GLB or 3MF are operands of their own")
+      .add_flag("--origins", session.origins,
+                "Mark each face with the operand that it comes from: groups in OBJ, colours in OFF, PLY and GLB. In a "
+                "union, each part of an OBJ, GLB or 3MF file counts as an operand")
       ->excludes(command.get_option("--repeat"));
   add_tile_flags(&command, flags);
 }
@@ -209,16 +208,16 @@ void run_boolean(Session& session, const TileFlags& flags, const Operation& oper
 using Sets = std::span<const Polyhedron>;
 
 const std::array<Operation, 4> kOperations{
-    {{"union", "The points of any of the sets", 1, kAnyNumber,
+    {{"union", "The union: points of at least one of the sets", 1, kAnyNumber,
       [](Sets s, const Monitor& m) { return s.size() == 2 ? unite(s[0], s[1], m) : unite_all(s, m); },
       BooleanOperator::kUnion},
-     {"intersection", "The points of all of the sets", 2, kAnyNumber,
+     {"intersection", "The intersection: points of all of the sets", 2, kAnyNumber,
       [](Sets s, const Monitor& m) { return s.size() == 2 ? intersect(s[0], s[1], m) : intersect_all(s, m); },
       BooleanOperator::kIntersection},
-     {"difference", "The points of the first set that are in none of the others", 2, kAnyNumber,
+     {"difference", "The difference: points of the first set that are in none of the others", 2, kAnyNumber,
       [](Sets s, const Monitor& m) { return subtract(s[0], unite_all(s.subspan(1), m), m); },
       BooleanOperator::kDifference},
-     {"symdiff", "The points of exactly one of two sets", 2, 2,
+     {"symdiff", "The symmetric difference: points of exactly one of two sets", 2, 2,
       [](Sets s, const Monitor& m) { return symmetric_difference(s[0], s[1], m); },
       BooleanOperator::kSymmetricDifference}}};
 
@@ -229,7 +228,7 @@ Commands boolean_commands() {
   for (const Operation& operation : kOperations) {
     rows.push_back(with_flags<TileFlags>({.name = operation.name,
                                           .description = operation.description,
-                                          .operands = "The operands, as files",
+                                          .operands = "Files of the operands",
                                           .least = operation.least,
                                           .most = operation.most,
                                           .output = Output::kOptional,

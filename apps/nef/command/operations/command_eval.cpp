@@ -17,6 +17,11 @@ struct EvalFlags {
   std::string script;
 };
 
+// Once, however often the computation is repeated.
+void note_once(Session& session, const std::string& line) {
+  if (std::find(session.notes().begin(), session.notes().end(), line) == session.notes().end()) session.note(line);
+}
+
 // The set of a text from a file: names of files in it are relative to the file, and errors begin with its name.
 Polyhedron evaluate_file(const std::string& path, const std::string& text, bool openscad, Session& session,
                          ExpressionOptions options) {
@@ -24,13 +29,7 @@ Polyhedron evaluate_file(const std::string& path, const std::string& text, bool 
   options.load = [&session, folder](const std::string& file, const Monitor& monitor) {
     return session.load((folder / file).string(), monitor);
   };
-  options.warn = [&session, &path](const std::string& warning) {
-    // Once, however often the computation is repeated.
-    const std::string line = path + ": " + warning;
-    if (std::find(session.notes().begin(), session.notes().end(), line) == session.notes().end()) {
-      session.note(line);
-    }
-  };
+  options.warn = [&session, &path](const std::string& warning) { note_once(session, path + ": " + warning); };
   try {
     return openscad ? evaluate_openscad(text, options) : evaluate_expression(text, options);
   } catch (const FileError&) {
@@ -55,10 +54,17 @@ void add_eval_options(CLI::App& command, Session&, EvalFlags& flags) {
       "  rotate(A, axis, degrees[, tolerance])\n"
       "  transform(A, 12 or 16 numbers)\n"
       "Variables: h = 7/2; a = cylinder(2*h, 1); a + translate(a, [0,0,h])\n"
-      "Numbers are exact: 0.1 is one tenth, 1/3 is allowed. A list of numbers may stand in brackets.\n"
-      "Of OpenSCAD (openscad -o model.csg model.scad; nef eval model.csg -o model.nef): cube sphere cylinder\n"
+      "Numbers are exact: 0.1 is one tenth, 1/3 is allowed. A list of numbers may be put in brackets.\n"
+      "OpenSCAD (openscad -o model.csg model.scad; nef eval model.csg -o model.nef): cube sphere cylinder\n"
       "  polyhedron square circle polygon union difference intersection hull minkowski render color multmatrix\n"
       "  linear_extrude (no twist) rotate_extrude, import of meshes.");
+}
+
+void refuse_openscad_source(const std::string& path) {
+  if (lower_extension(path) != "scad") return;
+  const std::string flat = path.substr(0, path.size() - 4) + "csg";
+  throw InputError(path + ": OpenSCAD must flatten this file first: openscad -o " + flat + " " + path + "; then give " +
+                   flat);
 }
 
 void run_eval(Session& session, const EvalFlags& flags, const CommandExtensions& extensions) {
@@ -66,8 +72,10 @@ void run_eval(Session& session, const EvalFlags& flags, const CommandExtensions&
   std::string path = flags.script;
   if (path.empty() && lower_extension(flags.text) == "csg") path = flags.text;
   if (flags.text.empty() == flags.script.empty()) {
-    throw InputError("eval: give an expression or, with -f, a file that holds one (see nef eval --help)");
+    throw InputError("eval: give an expression, or -f and a file that contains one (see nef eval --help)");
   }
+  refuse_openscad_source(path.empty() ? flags.text : path);
+  options.warn = [&session](const std::string& warning) { note_once(session, warning); };
   const std::string text = path.empty() ? flags.text : read_file(path);
   session.show_phase("computing");
   const Measured measured = measure(session.repeat, session.monitor, [&](const Monitor& monitor) {
@@ -82,7 +90,7 @@ void run_eval(Session& session, const EvalFlags& flags, const CommandExtensions&
 
 Commands eval_commands(const CommandExtensions& extensions) {
   return {with_flags<EvalFlags>({.name = "eval",
-                                 .description = "The set that an expression, a script or a .csg describes",
+                                 .description = "Compute the set that an expression, a script or a .csg file describes",
                                  .operands = "",
                                  .output = Output::kOptional,
                                  .repeats = true},

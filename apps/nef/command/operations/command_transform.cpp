@@ -61,8 +61,8 @@ void add_transform_options(CLI::App& command, Session&, MapSteps& steps) {
   step("--translate", "X,Y,Z", translation_map, "Move by a vector");
   step("--scale", "S|SX,SY,SZ", scale_map, "Scale about the origin");
   step("--rotate", "AXIS,DEGREES[,TOLERANCE]", rotation_map,
-       "Rotate about an axis (x, y, z or a,b,c) through the origin, by an angle within the tolerance (1e-9 degrees), "
-       "exactly orthogonally");
+       "Rotate about an axis (x, y, z or a,b,c) through the origin by an exact rotation whose angle is within the "
+       "tolerance (1e-9 degrees)");
   step("--matrix", "NUMBERS", matrix_map, "12 or 16 numbers: the rows of a 3x4 or 4x4 matrix, separated by commas");
 }
 
@@ -78,7 +78,7 @@ void run_transform(Session& session, const MapSteps& steps) {
 
 Commands transform_commands() {
   return {with_flags<MapSteps>({.name = "transform",
-                                .description = "The image under an affine map; steps are done in the order given",
+                                .description = "Apply an affine map; its steps are applied in the order given",
                                 .output = Output::kOptional},
                                add_transform_options, run_transform)};
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // nef check: what is wrong with a mesh, by name; or whether a native file holds a valid complex.
+#include <map>
+
 #include "apps/nef/command/commands.h"
 #include "nef/import/fill.h"
 #include "nef/import/try_from_mesh.h"
@@ -10,6 +12,9 @@
 
 namespace nef {
 namespace {
+
+// A mesh with two shells that overlap has hundreds of crossings.
+constexpr std::size_t kPrintedPerKind = 5;
 
 Json problem_json(const MeshProblem& problem) {
   return {{"name", name(problem.kind)}, {"legal", problem.legal}, {"vertices", problem.vertices},
@@ -82,10 +87,17 @@ void run_check(Session& session, bool need_strict) {
   bool strict = false;
   const Json problems = complex ? check_complex_file(session, path) : check_mesh_file(path, strict, session.monitor);
   bool good = complex || strict || !need_strict;
+  std::map<std::string, std::size_t> found_by_name;
   for (const Json& problem : problems) {
     good = good && problem["legal"].get<bool>();
+    if (++found_by_name[problem["name"]] > kPrintedPerKind) continue;
     session.say((problem["legal"].get<bool>() ? "note: " : "") + problem["name"].get<std::string>() + ": " +
                 problem["text"].get<std::string>());
+  }
+  for (const auto& [name, count] : found_by_name) {
+    if (count > kPrintedPerKind) {
+      session.say(name + ": " + std::to_string(count - kPrintedPerKind) + " more (--json lists all)");
+    }
   }
   session.exit_code = good ? kYes : kNo;
   if (session.json) {
@@ -102,13 +114,13 @@ void run_check(Session& session, bool need_strict) {
 Commands check_commands() {
   return {with_flags<bool>(
       {.name = "check",
-       .description = "What is wrong with a mesh? Exit code 0 if it bounds a solid, 1 if not",
-       .operands = "The mesh, as a file",
+       .description = "Report what is wrong with a mesh. Exit code 0 if it bounds a solid, 1 if not",
+       .operands = "File of the mesh",
        .reads_meshes = false},
       [](CLI::App& command, Session&, bool& need_strict) {
         command.add_flag("--strict", need_strict,
-                         "Exit code 1 also for a mesh that bounds a solid and is not strictly legal: triangles meet in "
-                         "more than the vertices and edges that they share");
+                         "Exit code 1 also for a mesh that bounds a solid but is not strictly legal: triangles meet "
+                         "outside their shared vertices and edges");
       },
       run_check)};
 }

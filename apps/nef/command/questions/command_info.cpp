@@ -49,7 +49,7 @@ Json tiled_info(Session& session, TileFlags flags) {
 
 void require_tiles_for_memory(const TileFlags& flags, bool in_tiles) {
   if (!in_tiles && !flags.memory.empty()) {
-    throw InputError("--memory is for sets in tiles: give a folder NAME.tiles, as nef convert makes it");
+    throw InputError("--memory applies to sets in tiles: give a folder NAME.tiles, which nef convert writes");
   }
 }
 
@@ -59,13 +59,13 @@ struct InfoFlags {
 };
 
 void add_info_options(CLI::App& command, Session& session, InfoFlags& flags) {
-  command.add_flag("--exact", session.exact, "Print exact numbers however long they are, and however long they take");
-  command.add_flag("--glued", flags.glued, "Of a set in tiles all that is told of others, for which it is glued");
+  command.add_flag("--exact", session.exact,
+                   "Print exact numbers, however long they are and however long they take to compute");
+  command.add_flag("--glued", flags.glued, "Report everything for a set in tiles, too, which joins its tiles");
   add_memory_flag(&command, flags.tiles);
   command.footer(
       "Centroid, inertia tensor (about the centroid, density 1), principal moments and their axes are those of the\n"
-      "solid parts. shells: the surfaces around volumes; a closed surface is one of each of its two sides. "
-      "euler_numbers:\n"
+      "solid parts. shells: the surfaces around volumes; a closed surface counts once for each side. euler_numbers:\n"
       "vertices - edges + facets of each shell. genus: of each shell that is a closed manifold surface.");
 }
 
@@ -124,15 +124,15 @@ void run_equal(Session& session, const TileFlags& flags) {
 
 Commands info_commands() {
   return {
-      with_flags<InfoFlags>({.name = "info", .description = "Counts, properties and measures of a set"},
+      with_flags<InfoFlags>({.name = "info", .description = "Report counts, properties and measures of a set"},
                             add_info_options, run_info),
       with_flags<TileFlags>(
           {.name = "convert", .description = "Read a set and write it in another format", .output = Output::kRequired},
           [](CLI::App& command, Session&, TileFlags& flags) { add_tile_flags(&command, flags); }, run_convert),
       with_flags<TileFlags>(
           {.name = "equal",
-           .description = "Are two sets the same? Exit code 0 if they are, 1 if not",
-           .operands = "The two sets, as files",
+           .description = "Compare two sets. Exit code 0 if they are equal, 1 if not",
+           .operands = "Files of the two sets",
            .least = 2,
            .most = 2},
           [](CLI::App& command, Session&, TileFlags& flags) { add_memory_flag(&command, flags); }, run_equal)};

@@ -35,7 +35,7 @@ void write_section(Session& session, const Section& section, const Rational3& no
     return;
   }
   if (section.unbounded > 0) {
-    session.note(std::to_string(section.unbounded) + " parts of the section that reach infinity are not drawn");
+    session.note(std::to_string(section.unbounded) + " unbounded parts of the section are not drawn");
   }
 }
 
@@ -92,12 +92,13 @@ struct SplitFlags {
 
 void add_split_options(CLI::App& command, Session&, SplitFlags& flags) {
   command.add_flag("--volumes", flags.volumes,
-                   "One part for each volume instead of each connected component: what touches in edges comes apart");
+                   "One part per volume instead of per connected component: volumes that touch in edges are separated");
   command
-      .add_option("--above", flags.above,
-                  "Only parts of more than this volume; if -o is a file (B.off) and no folder, all of them in it")
+      .add_option(
+          "--above", flags.above,
+          "Only parts of more than this volume; if -o names a file (B.off) instead of a folder, it gets all of them")
       ->type_name("VOLUME");
-  command.add_flag("--largest", flags.largest, "Only the part of the largest volume; -o is its file");
+  command.add_flag("--largest", flags.largest, "Only the part of the largest volume; -o names its file");
 }
 
 void run_split(Session& session, const SplitFlags& flags) {
@@ -118,7 +119,7 @@ void run_split(Session& session, const SplitFlags& flags) {
   const std::filesystem::path folder = session.output;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error) throw InputError(session.output + ": cannot be made a folder (" + error.message() + ")");
+  if (error) throw InputError(session.output + ": the folder cannot be created (" + error.message() + ")");
   if (session.format.empty()) session.format = "off";
   Json files = Json::array();
   for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -137,7 +138,7 @@ void run_distance(Session& session) {
   const Polyhedron b = session.load(session.inputs[1]);
   const Stopwatch watch;
   const std::optional<Distance> found = distance(a, b, session.monitor);
-  if (!found) throw InputError("one of the sets is empty: there is no distance");
+  if (!found) throw InputError("one of the sets is empty, so there is no distance");
   if (session.json) {
     session.spent("op", watch.seconds());
     return session.print("distance", {{"contact", contact_name(found->contact)},
@@ -164,9 +165,9 @@ Commands parts_commands() {
   return {
       with_flags<std::string>(
           {.name = "section",
-           .description = "The exact intersection of a set and a plane",
+           .description = "Intersect a set with a plane",
            .output = Output::kOptional,
-           .output_text = "file to write: a drawing in the plane (.svg in drawing units, .dxf), or the section in "
+           .output_text = "Output file: a drawing in the plane (.svg, one unit is 1 mm, or .dxf), or the section in "
                           "space (.nef and mesh formats)"},
           [](CLI::App& command, Session&, std::string& plane) {
             command.add_option("--plane", plane, "The plane ax+by+cz+d = 0")->required()->type_name("A,B,C,D");
@@ -176,11 +177,11 @@ Commands parts_commands() {
           {.name = "split",
            .description = "Write one file for each part of a set",
            .output = Output::kRequired,
-           .output_text = "folder for the parts, made if need be; they are called 0.off, 1.off, ... (see --format)"},
+           .output_text = "Folder for the parts, created if missing; their files are 0.off, 1.off, ... (see --format)"},
           add_split_options, run_split),
       {.name = "distance",
-       .description = "How far apart are two sets? The exact square, and nearest points",
-       .operands = "The two sets, as files",
+       .description = "The distance of two sets: its exact square, and nearest points",
+       .operands = "Files of the two sets",
        .least = 2,
        .most = 2,
        .run = run_distance}};

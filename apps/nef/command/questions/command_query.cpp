@@ -76,7 +76,7 @@ void run_ray(Session& session, const std::array<std::string, 2>& ray) {
 
 Commands query_commands() {
   return {with_flags<Words>(
-              {.name = "locate", .description = "Which vertex, edge, facet or volume holds a point?"},
+              {.name = "locate", .description = "Which vertex, edge, facet or volume contains a point?"},
               [](CLI::App& command, Session&, Words& points) {
                 command.add_option("points", points, "Points x,y,z")->required()->type_name("X,Y,Z");
               },

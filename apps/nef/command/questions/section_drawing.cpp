@@ -147,13 +147,20 @@ std::string section_svg(const Section& section, const Rational3& normal) {
   // A drawing of nothing, or of one point, is one unit wide: readers with floats know no box of less than 1e-38.
   const double size = std::max(width, height) > 0 ? std::max({width, height, 1e-30}) : 1;
   const double margin = size / 50;
-  std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"";
+  // One unit is a millimetre, as in 3MF, so that laser cutters and editors get the size right.
+  std::string text = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"";
+  append_number(text, width + 2 * margin);
+  text += "mm\" height=\"";
+  append_number(text, height + 2 * margin);
+  text += "mm\" viewBox=\"";
   for (const double x : {bounds.low[0] - margin, -bounds.high[1] - margin, width + 2 * margin}) {
     append_number(text, x);
     text += ' ';
   }
   append_number(text, height + 2 * margin);
-  text += "\">\n<g fill=\"#b8c8d8\" fill-rule=\"evenodd\" stroke=\"#203040\" stroke-linecap=\"round\" stroke-width=\"";
+  text +=
+      "\">\n"
+      "<g fill=\"#b8c8d8\" fill-rule=\"evenodd\" stroke=\"#203040\" stroke-linecap=\"round\" stroke-width=\"";
   append_number(text, size / 500);
   text += "\">\n";
   for (const SectionPolygon& polygon : section.polygons) text += svg_path(polygon, frame);

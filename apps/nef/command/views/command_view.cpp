@@ -89,7 +89,7 @@ struct PictureFlags {
 
 void add_picture_options(CLI::App& command, Session& session, PictureFlags& flags) {
   add_view_output(command, session, "The picture (.png)");
-  command.add_option("--from", flags.from, "Direction from the middle to the eye")->type_name("X,Y,Z");
+  command.add_option("--from", flags.from, "Direction from the centre to the camera")->type_name("X,Y,Z");
   command.add_option("--size", flags.size, "Pixels; 1200x900 if not given")->type_name("WxH");
   command.add_option("--section", flags.section, "Show only ax+by+cz+d <= 0, cut exactly")->type_name("A,B,C,D");
 }
@@ -122,16 +122,16 @@ void run_picture(Session& session, const PictureFlags& flags) {
 
 Commands view_commands() {
   Command view{.name = "view",
-               .description = "Write a page to look at sets in a browser.",
-               .operands = "The sets, as files; each becomes a layer",
+               .description = "Write a page that shows sets in a browser",
+               .operands = "Files of the sets; each becomes a layer",
                .most = kAnyNumber,
                .run = run_view};
   view.add_options = [](CLI::App& command, Session& session) {
-    add_view_output(command, session, "The page (.html, nothing else is needed to show it) or a glTF file (.glb)");
+    add_view_output(command, session, "The page (.html, self-contained) or a glTF file (.glb)");
   };
   return {std::move(view), with_flags<PictureFlags>({.name = "picture",
-                                                     .description = "Draw sets as a PNG picture, without a browser.",
-                                                     .operands = "The sets, as files",
+                                                     .description = "Draw sets as a PNG picture, without a browser",
+                                                     .operands = "Files of the sets",
                                                      .most = kAnyNumber},
                                                     add_picture_options, run_picture)};
 }

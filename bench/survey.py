@@ -15,12 +15,12 @@ import argparse
 import json
 import os
 import pathlib
+import re
 import resource
 import subprocess
 import sys
 import tempfile
 
-ENDINGS = {".off", ".obj", ".stl", ".ply", ".glb", ".3mf"}
 VERDICTS = ["taken", "resolved", "repaired", "lids", "refused", "failed"]
 LIMITS = [10, 30, 100]
 # Causes of refusals by what the program says; the first that fits.
@@ -62,6 +62,18 @@ class Run:
     def complaint(self):
         lines = [line for line in self.err.splitlines() if "note: " not in line]
         return lines[-1].split(": ", 2)[-1] if lines else f"exit code {self.code}"
+
+
+def endings(options):
+    """The endings of files of meshes, as the program names them for a file that it does not know."""
+    with tempfile.NamedTemporaryFile(suffix=".unknown") as file:
+        file.write(b"?")
+        file.flush()
+        complaint = Run([options.nef, "info", file.name], options.seconds, options.gigabytes).complaint()
+    listed = re.search(r"use the extension (.*)", complaint)
+    if not listed:
+        sys.exit(f"{options.nef}: {complaint}")
+    return {"." + word for word in re.split(r", | or ", listed[1])}
 
 
 def identity(report):
@@ -146,9 +158,10 @@ def main():
     parser.add_argument("--gigabytes", type=float, default=4, help="memory of a run")
     parser.add_argument("--json", type=pathlib.Path, help="write the rows there, too")
     options = parser.parse_args()
-    meshes = sorted(path for path in options.folder.rglob("*") if path.suffix.lower() in ENDINGS and path.is_file())
+    known = endings(options)
+    meshes = sorted(path for path in options.folder.rglob("*") if path.suffix.lower() in known and path.is_file())
     if not meshes:
-        sys.exit(f"{options.folder}: holds no meshes ({', '.join(sorted(ENDINGS))})")
+        sys.exit(f"{options.folder}: holds no meshes ({', '.join(sorted(known))})")
     rows = []
     with tempfile.TemporaryDirectory() as folder:
         for mesh in meshes:

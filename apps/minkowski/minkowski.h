@@ -8,7 +8,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -37,13 +36,15 @@ enum class UnionStrategy : std::uint8_t {
 inline constexpr std::array<std::pair<std::string_view, UnionStrategy>, 3> kUnionStrategies{
     {{"auto", UnionStrategy::kAuto}, {"convolution", UnionStrategy::kConvolution}, {"queue", UnionStrategy::kQueue}}};
 
+/// The phase of sums that monitors are told.
+inline constexpr char kSumPhase[] = "Minkowski sum";
+
 struct MinkowskiOptions {
   UnionStrategy strategy = UnionStrategy::kAuto;
-  /// Called after each pair of cells, and again and again while sums are united or a convolution is arranged, with the
-  /// work that is done in thousandths of all: (done, 1000), always by the calling thread; false stops the sum: it
-  /// throws nef::Interrupted. What consists of several sums (an opening) counts anew for each.
-  std::function<bool(std::size_t, std::size_t)> progress;
-  Monitor monitor = {};  ///< who watches; what it refers to must outlive the call
+  /// Who watches; what it refers to must outlive the call. It is told one phase (kSumPhase) after each pair of cells,
+  /// and again and again while sums are united or a convolution is arranged, in thousandths of the work. What consists
+  /// of several sums (an opening) counts anew for each.
+  Monitor monitor = {};
 };
 
 /// How a sum was made, in words: a strategy by its name in the program, `none` if nothing had to be united, `planes`

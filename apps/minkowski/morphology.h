@@ -15,6 +15,7 @@
 
 #include "apps/minkowski/minkowski.h"
 #include "nef/distance/distance.h"
+#include "nef/parts/split.h"
 #include "nef/polyhedron.h"
 
 namespace nef::minkowski {
@@ -128,9 +129,6 @@ struct Millable {
 Millable millable(const Polyhedron& part, const Polyhedron& tool, Approach approach = Approach::kAnywhere,
                   const MinkowskiOptions& options = {}, MinkowskiReport* report = nullptr);
 
-/// The connected component of a set that holds a point, empty if the set does not hold it; without a point, the
-/// component of what lies beyond all finite points (empty for bounded sets; for sets that leave the finite by several
-/// ways, all of these). Connected means: by paths within the set, passages of dimension 1 and 0 included. O(n log n).
-Polyhedron component_of(const Polyhedron& a, const std::optional<Rational3>& point, const Monitor& monitor = {});
+using nef::component_of;  // nef/parts/split.h
 
 }  // namespace nef::minkowski

@@ -10,9 +10,7 @@ int main(int argc, char** argv) {
   nef::keep_freed_memory();
   nef::CommandExtensions extensions;
   extensions.minkowski = [](const nef::Polyhedron& a, const nef::Polyhedron& b, const nef::Monitor& monitor) {
-    nef::minkowski::MinkowskiOptions options;
-    options.monitor = monitor;
-    return nef::minkowski::minkowski_sum(a, b, options);
+    return nef::minkowski::minkowski_sum(a, b, {.monitor = monitor});
   };
   extensions.ball = nef::minkowski::inner_ball;
   extensions.hull = nef::minkowski::hull;

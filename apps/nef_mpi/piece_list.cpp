@@ -45,9 +45,7 @@ Polyhedron PieceList::set(std::uint32_t piece, const Monitor& monitor) const {
   ExpressionOptions options;
   options.load = [&](const std::string& file, const Monitor&) { return read_file_or_tiles(path_of(file), mesh); };
   options.minkowski = [](const Polyhedron& a, const Polyhedron& b, const Monitor& own) {
-    minkowski::MinkowskiOptions sum;
-    sum.monitor = own;
-    return minkowski::minkowski_sum(a, b, sum);
+    return minkowski::minkowski_sum(a, b, {.monitor = own});
   };
   options.monitor = monitor;
   try {

@@ -113,9 +113,7 @@ class SceneBuilder {
   std::vector<Rational3> exact_;                   // point of each scene vertex
 };
 
-Point rounded(const Rational3& point) {
-  return {nearest_double(point[0]), nearest_double(point[1]), nearest_double(point[2])};
-}
+Point rounded(const Rational3& point) { return nearest_doubles(point); }
 
 // The planes by which the polyhedron is cut, in the order of bits in a mask: six of the box, then the section.
 std::vector<std::array<Rational, 4>> cutting_planes(const std::optional<std::array<Rational3, 2>>& box,

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "fuzz/fuzzer.h"
+#include "fuzz/fuzzers/face_rings.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 #include "nef/geometry/vectors.h"
@@ -20,22 +21,15 @@
 namespace nef::fuzz {
 namespace {
 
-using FaceRing = std::vector<std::uint32_t>;
-
-class DirtyMesh {
+class DirtyMesh : private FaceRings {
  public:
-  explicit DirtyMesh(Choices& choices) : choices_(choices) {}
+  explicit DirtyMesh(Choices& choices) : FaceRings(choices) {}
 
   Mesh make() {
     for (std::uint32_t parts = 1 + choices_.below(2); parts > 0; --parts) add_part();
     for (std::uint32_t changes = choices_.below(4); changes > 0; --changes) change();
     if (choices_.one_in(4)) scale();
-    Mesh mesh;
-    mesh.vertices = vertices_;
-    for (const FaceRing& ring : rings_) {
-      if (!ring.empty()) mesh.push_face(ring);
-    }
-    return mesh;
+    return mesh();
   }
 
  private:
@@ -142,7 +136,6 @@ class DirtyMesh {
     }
   }
 
-  FaceRing& any_ring() { return rings_[choices_.below(static_cast<std::uint32_t>(rings_.size()))]; }
   std::uint32_t any_vertex() { return choices_.below(static_cast<std::uint32_t>(vertices_.size())); }
 
   void change() {
@@ -152,16 +145,9 @@ class DirtyMesh {
     if (size < 2) return;
     const std::uint32_t at = choices_.below(size);
     const std::uint32_t next = (at + 1) % size;
-    switch (choices_.below(13)) {
-      case 0:
-        std::reverse(ring.begin(), ring.end());
-        break;
-      case 1:
-        rings_.push_back(FaceRing(ring));
-        break;
-      case 2:
-        rings_.emplace_back(ring.rbegin(), ring.rend());
-        break;
+    const std::uint32_t how = choices_.below(13);
+    if (how <= kCopyTurned) return damage_whole(how, ring);
+    switch (how) {
       case 3:
         ring.clear();
         break;
@@ -171,13 +157,11 @@ class DirtyMesh {
       case 5:  // a fold that hangs on an edge
         add_fold(ring[at], ring[next], any_vertex());
         break;
-      case 6:  // a vertex of its own at the same place
-        vertices_.push_back(Rational3(vertices_[ring[at]]));
-        ring[at] = static_cast<std::uint32_t>(vertices_.size() - 1);
+      case 6:
+        give_own_vertex(ring, at);
         break;
-      case 7:  // a vertex in one side of an edge
-        vertices_.push_back(middle(ring[at], ring[next]));
-        ring.insert(ring.begin() + at + 1, static_cast<std::uint32_t>(vertices_.size() - 1));
+      case 7:
+        cut_side(ring, at);
         break;
       case 8:  // out and back
         ring.insert(ring.begin() + at + 1, {any_vertex(), ring[at]});
@@ -187,9 +171,8 @@ class DirtyMesh {
         vertices_[v] = plus(vertices_[v], shift());
         break;
       }
-      case 10:  // no area
-        vertices_.push_back(middle(ring[at], ring[next]));
-        rings_.push_back({ring[at], static_cast<std::uint32_t>(vertices_.size() - 1), ring[next]});
+      case 10:
+        add_without_area(ring, at);
         break;
       case 11:  // cut in two
         if (size > 3) cut(at);
@@ -214,22 +197,12 @@ class DirtyMesh {
     rings_.push_back(std::move(rest));
   }
 
-  [[nodiscard]] Rational3 middle(std::uint32_t u, std::uint32_t v) const {
-    Rational3 result = plus(vertices_[u], vertices_[v]);
-    for (Rational& x : result) x /= 2;
-    return result;
-  }
-
   // Small integers no more, so that other ways to compute are taken.
   void scale() {
     const Rational by = choices_.below(2) == 0 ? Rational(1, 3) : Rational("36893488147419103233/7");
     const Rational shear = choices_.below(2) == 0 ? Rational(0) : Rational(1, 7);
     for (Rational3& v : vertices_) v = {(v[0] + shear * v[2]) * by, v[1] * by, v[2] * by};
   }
-
-  Choices& choices_;
-  std::vector<Rational3> vertices_;
-  std::vector<FaceRing> rings_;
 };
 
 // The bytes and notes of a set, or why there is none.

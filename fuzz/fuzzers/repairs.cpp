@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "fuzz/fuzzer.h"
+#include "fuzz/fuzzers/face_rings.h"
 #include "fuzz/fuzzers/soups.h"
 #include "nef/import/repair.h"
 #include "nef/import/try_from_mesh.h"
@@ -19,33 +20,30 @@
 namespace nef::fuzz {
 namespace {
 
-using FaceRing = std::vector<std::uint32_t>;
-
 // A soup that is damaged step by step.
-class DamagedSoup {
+class DamagedSoup : public FaceRings {
  public:
-  DamagedSoup(Choices& choices, const Mesh& soup) : choices_(choices), vertices_(soup.vertices) {
+  DamagedSoup(Choices& choices, const Mesh& soup) : FaceRings(choices) {
+    vertices_ = soup.vertices;
     for (std::size_t f = 0; f < soup.face_count(); ++f) rings_.emplace_back(soup.face(f).begin(), soup.face(f).end());
   }
 
   // What no repair takes to mean another set.
   void damage_harmlessly() {
     FaceRing& ring = any_ring();
-    const auto size = static_cast<std::uint32_t>(ring.size());
-    const std::uint32_t at = choices_.below(size);
+    const std::uint32_t at = choices_.below(static_cast<std::uint32_t>(ring.size()));
     switch (choices_.below(5)) {
       case 0:  // listed from another corner
         std::rotate(ring.begin(), ring.begin() + at, ring.end());
         break;
-      case 1:  // a vertex of its own at the same place
-        vertices_.push_back(Rational3(vertices_[ring[at]]));
-        ring[at] = static_cast<std::uint32_t>(vertices_.size() - 1);
+      case 1:
+        give_own_vertex(ring, at);
         break;
-      case 2:  // a corner in a side that the neighbour does not have
-        ring.insert(ring.begin() + at + 1, push_middle(ring[at], ring[(at + 1) % size]));
+      case 2:
+        cut_side(ring, at);
         break;
-      case 3:  // a face without area
-        rings_.push_back({ring[at], push_middle(ring[at], ring[(at + 1) % size]), ring[(at + 1) % size]});
+      case 3:
+        add_without_area(ring, at);
         break;
       default:  // a corner twice
         ring.insert(ring.begin() + at, ring[at]);
@@ -54,47 +52,13 @@ class DamagedSoup {
 
   void damage() {
     FaceRing& ring = any_ring();
-    switch (choices_.below(5)) {
-      case 0:
-        std::reverse(ring.begin(), ring.end());
-        break;
-      case 1:
-        rings_.push_back(FaceRing(ring));
-        break;
-      case 2:
-        rings_.emplace_back(ring.rbegin(), ring.rend());
-        break;
-      case 3:
-        if (rings_.size() > 1) {
-          std::swap(ring, rings_.back());
-          rings_.pop_back();
-        }
-        break;
-      default:
-        damage_harmlessly();
-    }
+    const std::uint32_t how = choices_.below(5);
+    if (how <= kCopyTurned) return damage_whole(how, ring);
+    if (how == kCopyTurned + 2) return damage_harmlessly();
+    if (rings_.size() < 2) return;
+    std::swap(ring, rings_.back());
+    rings_.pop_back();
   }
-
-  [[nodiscard]] Mesh mesh() const {
-    Mesh mesh;
-    mesh.vertices = vertices_;
-    for (const FaceRing& ring : rings_) mesh.push_face(ring);
-    return mesh;
-  }
-
- private:
-  FaceRing& any_ring() { return rings_[choices_.below(static_cast<std::uint32_t>(rings_.size()))]; }
-
-  std::uint32_t push_middle(std::uint32_t u, std::uint32_t v) {
-    Rational3 middle;
-    for (std::size_t i = 0; i < 3; ++i) middle[i] = (vertices_[u][i] + vertices_[v][i]) / 2;
-    vertices_.push_back(middle);
-    return static_cast<std::uint32_t>(vertices_.size() - 1);
-  }
-
-  Choices& choices_;
-  std::vector<Rational3> vertices_;
-  std::vector<FaceRing> rings_;
 };
 
 bool takes(Crossings rule, int winding) {

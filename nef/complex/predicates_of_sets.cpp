@@ -51,6 +51,13 @@ bool is_box_facet(const Complex& complex, FacetId facet) {
   return complex.planes.infimaximal(complex.facets[facet].plane);
 }
 
+bool has_finite_corners(const Complex& complex, const Facet& facet) {
+  for (const SHalfedgeId corner : complex.corners_of(facet)) {
+    if (is_box_vertex(complex, complex.shalfedge_vertex(corner))) return false;
+  }
+  return true;
+}
+
 bool is_open_set(const Complex& complex) {
   return all_boundary_items(complex, [](LabelId mark, bool) { return !is_selected(mark); });
 }

@@ -17,6 +17,8 @@ constexpr bool is_selected(LabelId mark) { return mark != 0 && mark != kOutside;
 bool is_box_vertex(const Complex& complex, VertexId vertex);
 bool is_box_edge(const Complex& complex, HalfedgeId halfedge);
 bool is_box_facet(const Complex& complex, FacetId facet);
+/// True if no corner of the facet lies on the infimaximal box.
+bool has_finite_corners(const Complex& complex, const Facet& facet);
 
 /// No boundary point is in the set. O(n).
 bool is_open_set(const Complex& complex);

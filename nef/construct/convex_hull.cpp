@@ -14,6 +14,7 @@
 
 #include "nef/base/error.h"
 #include "nef/construct/planar_hull.h"
+#include "nef/geometry/plane_finder.h"
 #include "nef/geometry/predicates.h"
 #include "nef/geometry/vectors.h"
 #include "nef/polyhedron.h"
@@ -107,8 +108,7 @@ Approximation Quickhull::orient(const HullTriangle& t, std::uint32_t point) cons
 PlaneId Quickhull::plane_of(HullTriangle& t) {
   if (!t.plane.valid()) {
     const Rational3& o = points_[t.vertex[0]];
-    const Rational3 normal = cross(minus(points_[t.vertex[1]], o), minus(points_[t.vertex[2]], o));
-    t.plane = planes_.intern(normal, Rational(-dot(normal, o)));
+    t.plane = plane_through(planes_, cross(minus(points_[t.vertex[1]], o), minus(points_[t.vertex[2]], o)), o);
   }
   return t.plane;
 }

@@ -7,6 +7,7 @@
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 #include "nef/geometry/integer_vector.h"
+#include "nef/geometry/plane_finder.h"
 #include "nef/geometry/vectors.h"
 #include "nef/mesh/polygon/simple_ring.h"
 #include "nef/polyhedron.h"
@@ -14,10 +15,6 @@
 
 namespace nef {
 namespace {
-
-PlaneId plane_through(PlaneTable& planes, const Rational3& normal, const Rational3& point) {
-  return planes.intern(normal, Rational(-dot(normal, point)));
-}
 
 Direction integer_direction(const Rational3& v) {
   const Integer3 d = primitive(v);
@@ -54,7 +51,8 @@ void require_simple(const std::vector<Rational3>& ring, const Rational3& normal,
   const std::size_t axis = normal[0] != 0 ? 0 : normal[1] != 0 ? 1 : 2;
   std::vector<std::uint32_t> corners(ring.size());
   std::iota(corners.begin(), corners.end(), 0U);
-  const auto sides = sides_that_meet(MeshPoints(ring), corners, axis, monitor);
+  const std::array end{static_cast<std::uint32_t>(corners.size())};
+  const auto sides = sides_that_meet(MeshPoints(ring), corners, end, axis, monitor);
   if (!sides) return;
   const auto name = [&](std::uint32_t side) {
     return std::to_string(side) + "-" + std::to_string((side + 1) % ring.size());
@@ -108,7 +106,7 @@ Polyhedron make_segment(const Rational3& a, const Rational3& b, const Monitor& m
   if (is_zero(d)) return make_point(a, monitor);
   PlaneTable planes;
   ComplexBuilder builder(planes, monitor);
-  const Rational3 n1 = d[0] == 0 && d[1] == 0 ? Rational3{1, 0, 0} : Rational3{Rational(-d[1]), d[0], 0};
+  const Rational3 n1 = across(d);
   const PlaneId p = plane_through(planes, n1, a);
   const PlaneId q = plane_through(planes, cross(d, n1), a);
   for (const bool at_a : {true, false}) {

@@ -4,6 +4,7 @@
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 #include "nef/construct/solid.h"
+#include "nef/geometry/vectors.h"
 #include "nef/number/brief_text.h"
 #include "nef/polyhedron.h"
 
@@ -40,29 +41,23 @@ Polyhedron make_box(const Rational3& low, const Rational3& high, const Monitor& 
   for (int i = 0; i < 8; ++i) {
     f.points.push({(i & 1) != 0 ? high[0] : low[0], (i & 2) != 0 ? high[1] : low[1], (i & 4) != 0 ? high[2] : low[2]});
   }
-  constexpr std::array<std::array<std::uint32_t, 4>, 6> kSides{
-      {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
-  for (std::size_t i = 0; i < 6; ++i) {
+  add_box_sides(f, [&](std::size_t i) {
     Rational3 normal;
     normal[i / 2] = i % 2 == 0 ? -1 : 1;
-    f.plane.push_back(f.planes.intern(normal, i % 2 == 0 ? low[i / 2] : Rational(-high[i / 2])));
-    f.corners.insert(f.corners.end(), kSides[i].begin(), kSides[i].end());
-    f.begin.push_back(static_cast<std::uint32_t>(f.corners.size()));
-  }
+    return f.planes.intern(normal, i % 2 == 0 ? low[i / 2] : Rational(-high[i / 2]));
+  });
   return Polyhedron(make_solid(std::move(f), {1, 1, 0}, monitor));
 }
 
 Polyhedron make_halfspace(const Rational& a, const Rational& b, const Rational& c, const Rational& d, bool closed,
                           const Monitor& monitor) {
   const Rational3 n{a, b, c};
-  if (a == 0 && b == 0 && c == 0) {
-    throw InputError("a half-space needs a normal that is not (0,0,0)");
-  }
+  if (is_zero(n)) throw InputError("a half-space needs a normal that is not (0,0,0)");
   // A map that takes z <= 0 to it: columns u, v orthogonal to n, then n; the origin goes to the
   // plane's point nearest to it.
-  const Rational3 u = a == 0 && b == 0 ? Rational3{1, 0, 0} : Rational3{Rational(-b), a, 0};
-  const Rational3 v{n[1] * u[2] - n[2] * u[1], n[2] * u[0] - n[0] * u[2], n[0] * u[1] - n[1] * u[0]};
-  const Rational square = a * a + b * b + c * c;
+  const Rational3 u = across(n);
+  const Rational3 v = cross(n, u);
+  const Rational square = dot(n, n);
   AffineMap map;
   for (std::size_t i = 0; i < 3; ++i) {
     map.linear[i] = {u[i], v[i], n[i]};

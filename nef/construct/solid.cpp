@@ -17,6 +17,8 @@
 #include "nef/base/fast_path.h"
 #include "nef/boolean/overlay_complexes.h"
 #include "nef/construct/plain_ring.h"
+#include "nef/geometry/plane_finder.h"
+#include "nef/geometry/vectors.h"
 #include "nef/location/query_structure.h"
 #include "nef/sphere_map/arrangement.h"
 #include "nef/synthesis/complex_builder.h"
@@ -162,18 +164,7 @@ class SolidBuilder {
   PlaneId plane_across(std::uint32_t v, const Spoke& spoke) {
     const Direction along = vector_between(f_.points, PointId{v}, PointId{spoke.to});
     const Direction up = Direction::normal(f_.planes, spoke.first);
-    const Integer3& edge = along.integers();
-    const Integer3& normal = up.integers();
-    Integer offset;
-    Integer3 n;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3;
-      const std::size_t k = (i + 2) % 3;
-      n[i] = normal[j] * edge[k] - normal[k] * edge[j];
-      mpz_submul(offset.get_mpz_t(), n[i].get_mpz_t(), f_.points.coordinate(PointId{v}, i));
-      mpz_mul(n[i].get_mpz_t(), n[i].get_mpz_t(), f_.points.coordinate(PointId{v}, 3));
-    }
-    return f_.planes.intern(n[0], n[1], n[2], offset);
+    return plane_through(f_.planes, f_.points, cross(up.integers(), along.integers()), PointId{v});
   }
 
   // An edge between two planes has the direction of their meeting, up to its sign, which the
@@ -275,16 +266,11 @@ SolidFaces infimaximal_box_faces(bool half) {
     h[6] = (i & 4) != 0 ? (half ? 0 : 1) : -1;
     f.points.push_homogeneous(h);
   }
-  // Vertices of the six sides, counterclockwise from outside: -x, +x, -y, +y, -z, +z.
-  constexpr std::array<std::array<std::uint32_t, 4>, 6> kSides{
-      {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
-  for (std::size_t i = 0; i < 6; ++i) {
+  add_box_sides(f, [&](std::size_t i) {
     Integer3 n;
     n[i / 2] = i % 2 == 0 ? -1 : 1;
-    f.plane.push_back(f.planes.intern(n[0], n[1], n[2], 0, half && i == 5 ? 0 : -1));
-    f.corners.insert(f.corners.end(), kSides[i].begin(), kSides[i].end());
-    f.begin.push_back(static_cast<std::uint32_t>(f.corners.size()));
-  }
+    return f.planes.intern(n[0], n[1], n[2], 0, half && i == 5 ? 0 : -1);
+  });
   return f;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <span>
 #include <variant>
 #include <vector>
@@ -22,6 +23,19 @@ struct SolidFaces {
   std::vector<std::uint32_t> begin{0};
   std::vector<std::uint32_t> corners;
 };
+
+/// Adds the sides -x, +x, -y, +y, -z, +z of a box between eight points, point i being at the upper end of axis k if i
+/// has bit k. plane(s) is the plane of side s.
+template <typename Plane>
+void add_box_sides(SolidFaces& f, Plane&& plane) {
+  constexpr std::array<std::array<std::uint32_t, 4>, 6> kSides{
+      {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
+  for (std::size_t s = 0; s < kSides.size(); ++s) {
+    f.plane.push_back(plane(s));
+    f.corners.insert(f.corners.end(), kSides[s].begin(), kSides[s].end());
+    f.begin.push_back(static_cast<std::uint32_t>(f.corners.size()));
+  }
+}
 
 struct SolidMarks {
   LabelId boundary = 1;  ///< of faces whose plane is not flipped, and where faces of both kinds meet

@@ -91,8 +91,7 @@ Approximation3 moved_by(const Approximation3& point, const Approximation3& by) {
 
 // What of one set is the same for all translations.
 struct Side {
-  explicit Side(const Polyhedron& of) : set(of), c(set.complex()) {
-    for (const VertexId v : c.vertex_ids()) points.push_back(c.points.rational(point_of(v)));
+  explicit Side(const Polyhedron& of) : set(of), c(set.complex()), points(c.points.rationals()) {
     std::vector<Box> boxes;
     UnionFind connected(c.vertex_count());
     for (const HalfedgeId h : c.halfedge_ids()) {

@@ -255,20 +255,6 @@ class Exporter {
     return MeshPoints(complex_.points, places_, doubles, asked);
   }
 
-  [[nodiscard]] bool convex_quad(const MeshPoints& points, const std::vector<std::uint32_t>& ring,
-                                 std::size_t axis) const {
-    const std::size_t n = ring.size();
-    if (n > 4) return false;
-    const auto turn = [&](std::size_t i) {
-      return points.orientation_along(ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n], axis, monitor_);
-    };
-    const int first = turn(0);
-    for (std::size_t i = 1; i < n; ++i) {
-      if (turn(i) != first) return false;
-    }
-    return first != 0;
-  }
-
   // The outer cycle has three corners at least.
   [[nodiscard]] bool is_triangle(const Facet& facet) const {
     return facet.isolated_count == 0 && complex_.corners_of(facet).size() == 3;
@@ -308,7 +294,8 @@ class Exporter {
       corners += complex_.corners_of(facet).size();
       const ProjectionAxis projection = projection_axis(complex_.planes, facet.plane);
       if (options_.keep_polygons && ring_end_.size() == 1 &&
-          (!options_.only_quads || convex_quad(points, rings_, projection.axis)) && may_stay_polygon(rings_)) {
+          (!options_.only_quads || (rings_.size() <= 4 && triangulator.is_convex(rings_, projection.axis))) &&
+          may_stay_polygon(rings_)) {
         if (flip) std::reverse(rings_.begin(), rings_.end());
         std::ranges::copy(rings_, room_for_faces(1, rings_.size()));
         end_face(rings_.size());

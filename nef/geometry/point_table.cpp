@@ -218,6 +218,13 @@ Rational3 PointTable::rational(PointId point) const {
   return result;
 }
 
+std::vector<Rational3> PointTable::rationals() const {
+  std::vector<Rational3> result;
+  result.reserve(size());
+  for (std::size_t i = 0; i < size(); ++i) result.push_back(rational(PointId{i}));
+  return result;
+}
+
 std::size_t PointTable::bytes() const { return rows_.bytes() + held_bytes(approximate_); }
 
 void PointTable::trim() {

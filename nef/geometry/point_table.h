@@ -100,6 +100,8 @@ class PointTable {
 
   /// The exact coordinates of a finite point.
   [[nodiscard]] Rational3 rational(PointId point) const;
+  /// The same of all points, which must be finite.
+  [[nodiscard]] std::vector<Rational3> rationals() const;
 
   [[nodiscard]] std::size_t bytes() const;
   /// Makes room for this many points of this many limbs each on average.

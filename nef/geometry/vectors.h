@@ -34,6 +34,22 @@ std::array<Number, 3> cross(const std::array<Number, 3>& a, const std::array<Num
   return {Number(a[1] * b[2] - a[2] * b[1]), Number(a[2] * b[0] - a[0] * b[2]), Number(a[0] * b[1] - a[1] * b[0])};
 }
 
+/// A vector at right angles to another one, which is not zero.
+template <class Number>
+std::array<Number, 3> across(const std::array<Number, 3>& v) {
+  if (v[0] == 0 && v[1] == 0) return {Number(1), Number(0), Number(0)};
+  return {Number(-v[1]), v[0], Number(0)};
+}
+
+/// The mean of some points, at least one.
+template <class Number>
+std::array<Number, 3> mean_of(std::span<const std::array<Number, 3>> points) {
+  std::array<Number, 3> sum{};
+  for (const std::array<Number, 3>& p : points) sum = plus(sum, p);
+  for (Number& x : sum) x /= static_cast<unsigned>(points.size());
+  return sum;
+}
+
 template <class Number>
 bool is_zero(const std::array<Number, 3>& a) {
   return a[0] == 0 && a[1] == 0 && a[2] == 0;

@@ -15,6 +15,7 @@
 #include "nef/base/error.h"
 #include "nef/complex/local_pyramid.h"
 #include "nef/complex/rewrite_sphere_maps.h"
+#include "nef/geometry/vectors.h"
 #include "nef/import/checked_surface.h"
 #include "nef/import/generalized_winding.h"
 #include "nef/import/mesh_faces.h"
@@ -92,12 +93,9 @@ class WindingFiller {
     const int up = c().planes.coefficient(facet.plane, axis).sign();
     const bool done = triangulator.triangulate(rings, axis, up, triangles);
     NEF_ASSERT(done && !triangles.empty());
-    Rational3 middle;
-    for (const std::uint32_t v : triangles[0]) {
-      const Rational3 corner = c().points.rational(PointId{v});
-      for (std::size_t i = 0; i < 3; ++i) middle[i] += corner[i] / 3;
-    }
-    return middle;
+    std::array<Rational3, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = c().points.rational(PointId{triangles[0][i]});
+    return mean_of<Rational>(corners);
   }
 
   // A face that covers a facet, to name in a message. O(n).
@@ -166,9 +164,7 @@ class WindingFiller {
         }
         const std::optional<RayHit> hit = shoot_ray(faces_, from, direction, {}, options_.monitor);
         NEF_ASSERT(hit);  // the volume is bounded
-        Rational3 middle;
-        for (std::size_t i = 0; i < 3; ++i) middle[i] = (from[i] + hit->point[i]) / 2;
-        sum[volume] += faces.around(middle);
+        sum[volume] += faces.around(mean_of<Rational>(std::array{from, hit->point}));
         ++count[volume];
       }
     }

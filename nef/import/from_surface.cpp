@@ -15,17 +15,6 @@
 namespace nef {
 namespace {
 
-// Cuts a ring into triangles with union equal to the polygon, if it is one that touches itself at most from within.
-bool cut(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::vector<Triangulator::Triangle>& out,
-         const Monitor& monitor) {
-  Triangulator triangulator(points, monitor);
-  for (const std::size_t axis : projection_axes(points, ring)) {
-    const int sign = ring_orientation(points, ring, axis, monitor);
-    if (sign != 0 && triangulator.triangulate(ring, axis, sign, out)) return true;
-  }
-  return false;
-}
-
 // What a ring in a plane of this normal encloses an odd number of times, with its sides. Pyramids over the triangles of
 // a fan, with one apex, are combined by parity: what that leaves of lower dimension, regularization removes.
 void add_enclosed(const std::vector<Rational3>& ring, const Rational3& normal, std::vector<Polyhedron>& out,
@@ -62,7 +51,8 @@ void add_single(const Mesh& mesh, const MeshSurface& surface, std::uint32_t f, s
   while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
   if (ring.size() < 3) return;
   std::vector<Triangulator::Triangle> triangles;
-  if (!cut(surface.points, ring, triangles, monitor)) {
+  // Their union is the polygon, if it is one that touches itself at most from within.
+  if (Triangulator(surface.points, monitor).cut(ring, triangles) == Triangulator::Cut::kFailed) {
     std::vector<Rational3> points;
     for (const std::uint32_t v : ring) points.push_back(mesh.vertices[v]);
     if (const std::optional<Rational3> normal = normal_if_planar(points); normal && !is_zero(*normal)) {

@@ -11,14 +11,14 @@ namespace nef {
 GeneralizedWinding::GeneralizedWinding(const Mesh& mesh, std::span<const std::array<std::uint32_t, 3>> triangles) {
   std::vector<Double3> points;
   for (const Rational3& v : mesh.vertices) {
-    points.push_back({nearest_double(v[0]), nearest_double(v[1]), nearest_double(v[2])});
+    points.push_back(nearest_doubles(v));
   }
   corners_.reserve(triangles.size());
   for (const auto& t : triangles) corners_.push_back({points[t[0]], points[t[1]], points[t[2]]});
 }
 
 double GeneralizedWinding::around(const Rational3& point) const {
-  const Double3 p{nearest_double(point[0]), nearest_double(point[1]), nearest_double(point[2])};
+  const Double3 p = nearest_doubles(point);
   double sum = 0;  // of half the solid angles [Van Oosterom, Strackee 1983]
   for (const auto& triangle : corners_) {
     std::array<Double3, 3> to = triangle;

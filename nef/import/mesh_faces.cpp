@@ -2,8 +2,8 @@
 //
 // Vertices become points along a space-filling curve, and faces follow by their first point, so that planes are in
 // spatial order, too. The plane of a face comes from one of its triangles, whose orientation is that of the face: in
-// machine integers if the points have a small common denominator, else in GMP integers. Either way common factors are
-// divided out while the numbers are short, so that the plane is primitive without a division of the long result.
+// machine integers if the points have a small common denominator, where common factors are divided out while the
+// numbers are short, else by a `PlaneFinder`.
 #include "nef/import/mesh_faces.h"
 
 #include <algorithm>
@@ -182,54 +182,10 @@ std::optional<PlaneId> MeshFaces::plane_of_small_triangle(std::span<const std::u
       std::array<Int128, 5>{factor * n[0], factor * n[1], factor * n[2], offset});  // no part in R
 }
 
-// (b - a) x (c - a) up to a positive factor, and the offset that puts a on it; no plane if the points are on one line.
+// No plane if the points are on one line.
 PlaneId MeshFaces::plane_of_triangle(std::span<const std::uint32_t> t) {
   if (const std::optional<PlaneId> plane = plane_of_small_triangle(t)) return *plane;
-  const IntegerView w = f_.points.coordinate(PointId{t[0]}, 3);
-  const auto difference = [&](std::uint32_t p, Integer3& out) {
-    const IntegerView of_p = f_.points.coordinate(PointId{p}, 3);
-    const bool same = mpz_cmp(w, of_p) == 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      mpz_ptr d = out[i].get_mpz_t();
-      if (same) {
-        mpz_sub(d, f_.points.coordinate(PointId{p}, i), f_.points.coordinate(PointId{t[0]}, i));
-      } else {
-        mpz_mul(d, f_.points.coordinate(PointId{p}, i), w);
-        mpz_submul(d, f_.points.coordinate(PointId{t[0]}, i), of_p);
-      }
-    }
-  };
-  difference(t[1], u_);
-  difference(t[2], v_);
-  mpz_ptr offset = offset_.get_mpz_t();
-  mpz_set_ui(offset, 0);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    const std::size_t k = (i + 2) % 3;
-    mpz_ptr n = n_[i].get_mpz_t();
-    mpz_mul(n, u_[j].get_mpz_t(), v_[k].get_mpz_t());
-    mpz_submul(n, u_[k].get_mpz_t(), v_[j].get_mpz_t());
-  }
-  if (n_[0] == 0 && n_[1] == 0 && n_[2] == 0) return PlaneId();
-  // Short normals first: a common factor of the differences would go through all that follows.
-  Integer& divisor = u_[0];
-  mpz_gcd(divisor.get_mpz_t(), n_[0].get_mpz_t(), n_[1].get_mpz_t());
-  mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), n_[2].get_mpz_t());
-  for (std::size_t i = 0; i < 3; ++i) {
-    mpz_ptr n = n_[i].get_mpz_t();
-    if (divisor > 1) mpz_divexact(n, n, divisor.get_mpz_t());
-    mpz_submul(offset, n, f_.points.coordinate(PointId{t[0]}, i));
-  }
-  // The plane is w n.x + offset = 0, w being the point's denominator, and what w n and the offset have in common is a
-  // divisor of w.
-  mpz_gcd(divisor.get_mpz_t(), w, offset);
-  Integer& factor = u_[1];
-  mpz_divexact(factor.get_mpz_t(), w, divisor.get_mpz_t());
-  if (divisor > 1) mpz_divexact(offset, offset, divisor.get_mpz_t());
-  if (factor > 1) {
-    for (Integer& n : n_) mpz_mul(n.get_mpz_t(), n.get_mpz_t(), factor.get_mpz_t());
-  }
-  return f_.planes.intern_primitive({n_[0].get_mpz_t(), n_[1].get_mpz_t(), n_[2].get_mpz_t(), offset});
+  return finder_.through(f_.planes, f_.points, PointId{t[0]}, PointId{t[1]}, PointId{t[2]});
 }
 
 // A face that is not planar, as the check has cut it.

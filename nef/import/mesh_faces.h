@@ -11,6 +11,7 @@
 
 #include "nef/construct/construct.h"
 #include "nef/construct/solid.h"
+#include "nef/geometry/plane_finder.h"
 #include "nef/import/checked_surface.h"
 #include "nef/mesh/surface/mesh_surface.h"
 
@@ -61,8 +62,7 @@ class MeshFaces {
   SolidFaces f_;                         // these; names are places
   bool reverse_ = false;
   std::vector<std::uint32_t> ring_;
-  Integer3 u_, v_, n_;
-  Integer offset_;
+  PlaneFinder finder_;
 };
 
 /// All faces for try_make_solid, turned over (which is noted) if they enclose a negative volume. O(n log n).

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "nef/base/counted.h"
@@ -22,15 +21,10 @@
 #include "nef/import/repair/signed_volume.h"
 #include "nef/import/repair/turn_components.h"
 #include "nef/import/repair/winding_report.h"
+#include "nef/number/brief_text.h"
 
 namespace nef {
 namespace {
-
-std::string percent_text(double share) {
-  std::array<char, 32> text{};
-  static_cast<void>(std::snprintf(text.data(), text.size(), "%.2g %%", 100 * share));
-  return text.data();
-}
 
 // Whether the rule counts how often faces wind around something.
 bool is_signed(Crossings rule) {
@@ -128,8 +122,9 @@ class Repairer {
     result_.has_lids = lids.holes > 0 && 100 * lids.share <= options_.close_percent;
     if (!result_.has_lids) return;
     put_on(faces_, lids);
-    faces_.done.push_back(counted(lids.holes, "hole", "holes") + " closed by lids of " + percent_text(lids.share) +
-                          " of the area, " + std::to_string(lids.flat) + " of them flat (a guess)");
+    faces_.done.push_back(counted(lids.holes, "hole", "holes") + " closed by lids of " +
+                          short_text(100 * lids.share, 2) + " % of the area, " + std::to_string(lids.flat) +
+                          " of them flat (a guess)");
   }
 
   void turn_inside_out() {

@@ -12,12 +12,9 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 std::vector<Triangle> triangles_of(const Mesh& mesh, const MeshSurface& surface, std::uint32_t face) {
   std::vector<Triangle> result;
-  for (std::uint32_t t = surface.triangle_begin[face]; t < surface.triangle_begin[face + 1]; ++t) {
-    result.push_back(surface.triangles[t]);
-  }
-  if (!result.empty()) return result;
-  const auto ring = mesh.face(face);
-  for (std::size_t i = 1; i + 1 < ring.size(); ++i) result.push_back({ring[0], ring[i], ring[i + 1]});
+  surface.for_each_triangle(mesh, face, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    result.push_back({a, b, c});
+  });
   return result;
 }
 

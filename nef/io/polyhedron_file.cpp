@@ -76,14 +76,13 @@ class BoundaryWriter {
     file_.monitor = options.monitor;
     const FileNumbers numbers = format_.numbers(options.binary);
     single_ = numbers == FileNumbers::kFloats;
-    rounding_ = single_                            ? rounding_to_binary_floats()
-                : numbers == FileNumbers::kDoubles ? rounding_to_binary_doubles()
-                                                   : rounding_to_decimals();
+    rounding_ = rounding_to(numbers);
   }
 
   /// What the options for the bytes say so far.
   [[nodiscard]] MeshWriteOptions& file() { return file_; }
   [[nodiscard]] const MeshFormat& format() const { return format_; }
+  [[nodiscard]] const Rounding& rounding() const { return rounding_; }
 
   /// Moves the mesh to the origin.
   void recenter(Mesh& mesh) { file_.offset = nef::recenter(mesh); }
@@ -101,7 +100,7 @@ class BoundaryWriter {
     std::string problem;
     if (!is_strict && options_.exact) {
       problem = strict_problem(mesh, options_.monitor);
-    } else if (!options_.exact && !(is_strict && all_kept(mesh))) {
+    } else if (!options_.exact && !(is_strict && are_kept(mesh, rounding_))) {
       problem = round(mesh);
     }
     if (problem.empty() && options_.manifold) problem = separate(mesh);
@@ -149,12 +148,6 @@ class BoundaryWriter {
                            " with --exact, or move it to the origin (--recenter); --lenient writes it as it is");
   }
 
-  [[nodiscard]] bool all_kept(const Mesh& mesh) const {
-    return std::all_of(mesh.vertices.begin(), mesh.vertices.end(), [&](const Rational3& p) {
-      return std::all_of(p.begin(), p.end(), [&](const Rational& x) { return is_kept(x, rounding_); });
-    });
-  }
-
   // Replaces the mesh by one of the numbers that are written, and returns why there is none.
   std::string round(Mesh& mesh) {
     refuse_infinite(mesh, format_, file_);
@@ -176,7 +169,7 @@ class BoundaryWriter {
     if (separated.copies == 0) return "";
     notes_.push_back("the solid touches itself, in " + std::to_string(separated.edges) +
                      " edges: " + std::to_string(separated.copies) + " vertices are duplicated in the file");
-    if (options_.exact || all_kept(mesh)) return "";
+    if (options_.exact || are_kept(mesh, rounding_)) return "";
     return rounded_problem(mesh, rounding_, options_.monitor);
   }
 
@@ -221,7 +214,7 @@ MeshExport exported(const Polyhedron& polyhedron, const PolyhedronWriteOptions& 
   // Where the mesh is moved, its polygons stay planar only if all else of it is written as it is, too.
   if (options.recenter) export_options.keep_polygons = export_options.keep_polygons && options.exact;
   export_options.polygon_corner = [&](const Rational3& point) {
-    return survives_writing(point, writer.format(), writer.file());
+    return options.exact || is_kept(point, writer.rounding(), Readers::kOurs);
   };
   if (groups != nullptr) {
     export_options.selected = groups->selected;

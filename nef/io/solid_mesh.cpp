@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/io/solid_mesh.h"
 
-#include <algorithm>
-
 #include "nef/export/to_mesh.h"
 #include "nef/io/mesh/mend_rounded.h"
 #include "nef/mesh/recenter.h"
@@ -25,9 +23,7 @@ MeshExport exported(const Polyhedron& set, const SolidMeshOptions& options, cons
   how.keep_polygons = options.polygons && !(options.repair && options.recenter);
   how.only_quads = options.manifold || options.repair;
   if (options.repair) {
-    how.polygon_corner = [&rounding](const Rational3& p) {
-      return std::all_of(p.begin(), p.end(), [&](const Rational& x) { return is_kept(x, rounding); });
-    };
+    how.polygon_corner = [&rounding](const Rational3& p) { return is_kept(p, rounding); };
   }
   return to_mesh(set, how, options.monitor);
 }
@@ -35,7 +31,7 @@ MeshExport exported(const Polyhedron& set, const SolidMeshOptions& options, cons
 }  // namespace
 
 SolidMesh solid_mesh(const Polyhedron& set, const SolidMeshOptions& options) {
-  const Rounding rounding = rounding_to_binary_doubles();
+  const Rounding rounding = rounding_to(FileNumbers::kDoubles);
   MeshExport made = exported(set, options, rounding);
   SolidMesh result{.mesh = std::move(made.mesh), .notes = std::move(made.lost)};
   if (options.recenter) result.offset = recenter(result.mesh);

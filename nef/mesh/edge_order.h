@@ -15,6 +15,9 @@ inline std::uint64_t pair_key(std::uint32_t first, std::uint32_t second) {
   return static_cast<std::uint64_t>(first) << 32U | second;
 }
 
+/// The key of an edge, whichever way it is run through.
+inline std::uint64_t edge_key(std::uint32_t u, std::uint32_t v) { return pair_key(std::min(u, v), std::max(u, v)); }
+
 /// Sorts items by their member `key` (a pair_key whose first index is below `count`); equal ones keep their order.
 /// One counting pass by the first index, then each group on its own: O(n + count) while groups are small.
 template <typename Item>

@@ -29,4 +29,10 @@ struct Mesh {
   }
 };
 
+/// Calls visit(u, v) for each side of a face, given by its corners: from u to v.
+template <typename Visit>
+void for_each_side(std::span<const std::uint32_t> face, Visit&& visit) {
+  for (std::size_t i = 0; i < face.size(); ++i) visit(face[i], face[i + 1 == face.size() ? 0 : i + 1]);
+}
+
 }  // namespace nef

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <set>
 #include <span>
@@ -19,6 +18,7 @@
 #include "nef/mesh/surface/convex_surface.h"
 #include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/surface/surface_contacts.h"
+#include "nef/number/brief_text.h"
 
 namespace nef {
 namespace {
@@ -199,7 +199,7 @@ std::vector<FaceEdge> face_edges(const Mesh& mesh, const MeshSurface& surface) {
       const std::uint32_t u = surface.place[face[i]];
       const std::uint32_t v = surface.place[face[(i + 1) % face.size()]];
       if (u == v) continue;
-      edges.push_back({pair_key(std::min(u, v), std::max(u, v)), f, u < v, {face[i], face[(i + 1) % face.size()]}});
+      edges.push_back({edge_key(u, v), f, u < v, {face[i], face[(i + 1) % face.size()]}});
     }
   }
   sort_by_pair(edges, mesh.vertices.size());
@@ -353,11 +353,7 @@ int volume_sign(const Mesh& mesh, const MeshSurface& surface) {
   }
   Rational exact = 0;
   for (const auto& t : surface.triangles) {
-    const Rational3& a = mesh.vertices[t[0]];
-    const Rational3& b = mesh.vertices[t[1]];
-    const Rational3& c = mesh.vertices[t[2]];
-    exact +=
-        a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+    exact += dot(mesh.vertices[t[0]], cross(mesh.vertices[t[1]], mesh.vertices[t[2]]));
   }
   return sgn(exact);
 }
@@ -444,27 +440,18 @@ double face_deviation(const Mesh& mesh, std::size_t face) {
   const auto corners = mesh.face(face);
   if (corners.size() < 4) return 0;
   const Rational3 normal = area_vector(mesh, corners);
-  const Rational length2 = normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2];
+  const Rational length2 = dot(normal, normal);
   if (length2 == 0) return 0;
-  Rational3 centre{};
-  for (const std::uint32_t v : corners) {
-    for (std::size_t axis = 0; axis < 3; ++axis) centre[axis] += mesh.vertices[v][axis];
-  }
+  std::vector<Rational3> points;
+  for (const std::uint32_t v : corners) points.push_back(mesh.vertices[v]);
+  const Rational3 centre = mean_of<Rational>(points);
   Rational largest = 0;
-  for (const std::uint32_t v : corners) {
-    Rational height = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      height += normal[axis] * (mesh.vertices[v][axis] - centre[axis] / static_cast<unsigned long>(corners.size()));
-    }
-    largest = std::max(largest, Rational(abs(height)));
-  }
+  for (const Rational3& p : points) largest = std::max(largest, Rational(abs(dot(normal, minus(p, centre)))));
   return std::sqrt(nearest_double(largest * largest / length2));
 }
 
 std::string face_deviation_text(const Mesh& mesh, std::size_t face) {
-  std::array<char, 32> digits{};
-  std::snprintf(digits.data(), digits.size(), "%.3g", face_deviation(mesh, face));
-  return digits.data();
+  return short_text(face_deviation(mesh, face), 3);
 }
 
 std::string not_planar_text(const Mesh& mesh, std::size_t face) {

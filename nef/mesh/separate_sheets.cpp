@@ -10,6 +10,7 @@
 #include <string>
 
 #include "nef/base/error.h"
+#include "nef/base/union_find.h"
 #include "nef/geometry/vectors.h"
 #include "nef/mesh/area_vector.h"
 #include "nef/mesh/edge_order.h"
@@ -28,8 +29,7 @@ struct FaceSide {
 
 class Separator {
  public:
-  explicit Separator(const Mesh& mesh) : mesh_(mesh), root_(mesh.corners.size()) {
-    std::iota(root_.begin(), root_.end(), 0U);
+  explicit Separator(const Mesh& mesh) : mesh_(mesh), corners_(mesh.corners.size()) {
     for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
       const std::uint32_t begin = mesh.face_begin[f];
       const std::uint32_t end = mesh.face_begin[f + 1];
@@ -37,7 +37,7 @@ class Separator {
         const std::uint32_t next = c + 1 < end ? c + 1 : begin;
         const std::uint32_t u = mesh.corners[c];
         const std::uint32_t v = mesh.corners[next];
-        sides_.push_back({pair_key(std::min(u, v), std::max(u, v)), f, c, next, u < v});
+        sides_.push_back({edge_key(u, v), f, c, next, u < v});
       }
     }
     sort_by_pair(sides_, mesh.vertices.size());
@@ -56,14 +56,9 @@ class Separator {
   }
 
  private:
-  std::uint32_t find(std::uint32_t c) {
-    while (root_[c] != c) c = root_[c] = root_[root_[c]];
-    return c;
-  }
-
   void join(const FaceSide& a, const FaceSide& b) {
-    root_[find(a.corner)] = find(b.next);
-    root_[find(a.next)] = find(b.corner);
+    corners_.unite(a.corner, b.next);
+    corners_.unite(a.next, b.corner);
   }
 
   void pair_sides(std::span<FaceSide> sides) {
@@ -124,7 +119,7 @@ class Separator {
     std::vector<bool> taken(mesh_.vertices.size(), false);
     std::vector<std::uint32_t> number(mesh_.corners.size(), UINT32_MAX);
     for (std::uint32_t c = 0; c < mesh_.corners.size(); ++c) {
-      std::uint32_t& own = number[find(c)];
+      std::uint32_t& own = number[corners_.find(c)];
       if (own == UINT32_MAX) {
         const std::uint32_t vertex = mesh_.corners[c];
         own = taken[vertex] ? add_vertex(Rational3(mesh_.vertices[vertex])) : vertex;
@@ -150,7 +145,7 @@ class Separator {
     for (std::uint32_t p = 0; p < pinched_.size(); ++p) {
       const std::uint32_t u = result_.mesh.corners[pinched_[p][1].corner];
       const std::uint32_t v = result_.mesh.corners[pinched_[p][1].next];
-      pairs.push_back({pair_key(std::min(u, v), std::max(u, v)), p});
+      pairs.push_back({edge_key(u, v), p});
     }
     sort_by_pair(pairs, result_.mesh.vertices.size());
     std::vector<std::uint32_t> middle(mesh_.corners.size(), UINT32_MAX);  // in the side that begins at a corner
@@ -162,9 +157,8 @@ class Separator {
       any = true;
       const auto& pair = pinched_[pairs[k].index];
       const auto [u, v] = ends(pair[0]);
-      Rational3 point;
-      for (std::size_t i = 0; i < 3; ++i) point[i] = (mesh_.vertices[u][i] + mesh_.vertices[v][i]) / 2;
-      middle[pair[0].corner] = middle[pair[1].corner] = add_vertex(std::move(point));
+      middle[pair[0].corner] = middle[pair[1].corner] =
+          add_vertex(mean_of<Rational>(std::array{mesh_.vertices[u], mesh_.vertices[v]}));
     }
     if (any) insert(middle);
   }
@@ -195,7 +189,7 @@ class Separator {
 
   const Mesh& mesh_;
   std::vector<FaceSide> sides_;
-  std::vector<std::uint32_t> root_;  // of corners
+  UnionFind corners_;  // at one vertex
   std::vector<std::array<FaceSide, 2>> pinched_;
   SeparatedSheets result_;
 };

@@ -43,6 +43,12 @@ std::string brief_text(const Rational& value) {
   return "about " + std::string(text.data(), end);
 }
 
+std::string short_text(double value, int digits) {
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, digits).ptr;
+  return {text.data(), end};
+}
+
 std::string brief_text(const Integer& value) { return brief_text(Rational(value)); }
 
 std::string brief_text(const Rational3& point) {

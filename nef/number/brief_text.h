@@ -20,6 +20,9 @@ inline constexpr std::size_t kBriefNumber = 40;
 std::string brief_text(const Rational& value);
 std::string brief_text(const Integer& value);
 
+/// The double with so many digits, however small it is: "1.23e-05".
+std::string short_text(double value, int digits);
+
 /// "(x, y, z)", each as above.
 std::string brief_text(const Rational3& point);
 

@@ -32,6 +32,10 @@ Rational exact_rational(double value);
 /// The double nearest to `value` (round half to even; overflow gives an infinity, underflow
 /// rounds to a subnormal or zero like any IEEE operation).
 double nearest_double(const Rational& value);
+/// The same of three coordinates.
+inline std::array<double, 3> nearest_doubles(const Rational3& point) {
+  return {nearest_double(point[0]), nearest_double(point[1]), nearest_double(point[2])};
+}
 
 /// "p/q" in lowest terms, or "p" for an integer.
 std::string to_string(const Rational& value);

@@ -10,7 +10,6 @@
 #include "nef/polyhedron.h"
 
 namespace nef {
-namespace {}  // namespace
 
 AffineMap AffineMap::identity() { return scale({1, 1, 1}); }
 

@@ -6,6 +6,7 @@
 #include "nef/base/error.h"
 #include "nef/complex/predicates_of_sets.h"
 #include "nef/construct/construct.h"
+#include "nef/geometry/vectors.h"
 
 namespace nef {
 namespace {
@@ -31,11 +32,9 @@ class SectionReader {
 
  private:
   void add_polygon(const Facet& facet) {
-    for (const SHalfedgeId corner : c_.corners_of(facet)) {
-      if (is_box_vertex(c_, c_.shalfedge_vertex(corner))) {
-        ++out_.unbounded;
-        return;
-      }
+    if (!has_finite_corners(c_, facet)) {
+      ++out_.unbounded;
+      return;
     }
     // Cycles run counterclockwise as seen from the positive side of the unflipped plane.
     Rational along = 0;
@@ -76,9 +75,7 @@ class SectionReader {
 }  // namespace
 
 Section section(const Polyhedron& a, const Rational3& normal, const Rational& offset, const Monitor& monitor) {
-  if (normal[0] == 0 && normal[1] == 0 && normal[2] == 0) {
-    throw InputError("the plane of a section needs a normal that is not (0,0,0)");
-  }
+  if (is_zero(normal)) throw InputError("the plane of a section needs a normal that is not (0,0,0)");
   const Polyhedron plane = boundary(make_halfspace(normal[0], normal[1], normal[2], offset, true, monitor), monitor);
   Section result;
   result.set = intersect(a, plane, monitor);

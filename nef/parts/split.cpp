@@ -6,6 +6,7 @@
 #include "nef/parts/split.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "nef/base/union_find.h"
@@ -92,20 +93,14 @@ class PieceMaker {
 
   // A piece has a table of its own planes, so that many small ones cost no more than their sizes.
   void rename_planes(PlaneTable& planes) {
-    const auto rename = [&](PlaneId& plane) {
+    for_each_plane(out_, [&](PlaneId& plane) {
       std::uint32_t& row = row_[plane.row()];
       if (row == kNone) {
         row = planes.append_new(c_.planes, plane.row());
         rows_in_use_.push_back(plane.row());
       }
       plane = PlaneId{row << 1U | (plane.value & 1U)};
-    };
-    for (SVertex& v : out_.svertices) {
-      rename(v.p);
-      rename(v.q);
-    }
-    for (SHalfedge& e : out_.shalfedges) rename(e.plane);
-    for (SLoop& l : out_.sloops) rename(l.plane);
+    });
   }
 
   const Complex& c_;
@@ -139,21 +134,25 @@ class Components {
     return of_facet(facet_of(c_.shalfedge_facet[c_.vertices[v].shalfedges + shalfedge]));
   }
   std::uint32_t of_circle(VertexId v) { return of_facet(facet_of(c_.sloop_facet[c_.vertices[v].sloops])); }
-  std::uint32_t of_svertex(VertexId v, std::uint32_t svertex) {
-    const HalfedgeId h = c_.halfedges(v)[svertex];
-    return of(edges_ + c_.edge(h).index(), c_.svertex(h).mark);
-  }
+  std::uint32_t of_svertex(VertexId v, std::uint32_t svertex) { return of_edge(c_.halfedges(v)[svertex]); }
   std::uint32_t of_vertex(VertexId v) { return of(vertices_ + v.index(), c_.mark(v)); }
+  std::uint32_t of_item(const ItemRef& item) {
+    if (item.kind == ItemRef::Kind::kVertex) return of_vertex(item.vertex());
+    if (item.kind == ItemRef::Kind::kEdge) return of_edge(item.halfedge());
+    return item.kind == ItemRef::Kind::kFacet ? of_facet(item.facet()) : of_volume(item.volume());
+  }
 
-  void keep(std::uint32_t component, VertexId v, const SphereMapView& map, Kept& out) {
+  // What some components have around a vertex.
+  template <typename Wanted>
+  void keep(const Wanted& wanted, VertexId v, const SphereMapView& map, Kept& out) {
     out.sfaces.resize(map.sfaces.size());
     out.arcs.resize(map.shalfedges.size() / 2);
     out.svertices.resize(map.svertices.size());
-    for (std::uint32_t i = 0; i < map.sfaces.size(); ++i) out.sfaces[i] = of_sface(v, i) == component;
-    for (std::uint32_t i = 0; i < out.arcs.size(); ++i) out.arcs[i] = of_arc(v, 2 * i) == component;
-    for (std::uint32_t i = 0; i < map.svertices.size(); ++i) out.svertices[i] = of_svertex(v, i) == component;
-    out.circle = !map.sloops.empty() && of_circle(v) == component;
-    out.centre = of_vertex(v) == component;
+    for (std::uint32_t i = 0; i < map.sfaces.size(); ++i) out.sfaces[i] = wanted(of_sface(v, i));
+    for (std::uint32_t i = 0; i < out.arcs.size(); ++i) out.arcs[i] = wanted(of_arc(v, 2 * i));
+    for (std::uint32_t i = 0; i < map.svertices.size(); ++i) out.svertices[i] = wanted(of_svertex(v, i));
+    out.circle = !map.sloops.empty() && wanted(of_circle(v));
+    out.centre = wanted(of_vertex(v));
   }
 
   // The components around a vertex, each once.
@@ -175,6 +174,7 @@ class Components {
  private:
   std::uint32_t of(std::uint32_t item, LabelId mark) { return is_selected(mark) ? sets_.find(item) : kNone; }
   std::uint32_t of_facet(FacetId facet) { return of(facets_ + facet.index(), c_.facets[facet].mark); }
+  std::uint32_t of_edge(HalfedgeId h) { return of(edges_ + c_.edge(h).index(), c_.svertex(h).mark); }
   void join(std::uint32_t a, std::uint32_t b) {
     if (a != kNone && b != kNone) sets_.unite(a, b);
   }
@@ -257,10 +257,35 @@ std::vector<Polyhedron> split(const Polyhedron& a, const Monitor& monitor) {
   PieceMaker maker(c, monitor);
   for (const std::uint32_t i : order) {
     result.push_back(maker.make(pieces[i], [&](VertexId v, const SphereMapView& map, Kept& out) {
-      components.keep(component_of[i], v, map, out);
+      components.keep([&](std::uint32_t component) { return component == component_of[i]; }, v, map, out);
     }));
   }
   return result;
+}
+
+Polyhedron component_of(const Polyhedron& a, const std::optional<Rational3>& point, const Monitor& monitor) {
+  const Complex& c = a.complex();
+  Components components(c);
+  std::set<std::uint32_t> wanted{point ? components.of_item(locate(a, *point, monitor))
+                                       : components.of_volume(kOuterVolume)};
+  std::vector<std::uint32_t> found;
+  for (const VertexId v : c.vertex_ids()) {
+    if (point || !is_box_vertex(c, v)) continue;
+    components.around(v, found);
+    wanted.insert(found.begin(), found.end());
+  }
+  wanted.erase(kNone);
+  if (wanted.empty()) return {};
+  const auto is_wanted = [&wanted](std::uint32_t component) { return wanted.contains(component); };
+  Piece piece;
+  if (is_wanted(components.of_volume(kOuterVolume))) piece.outer = c.volumes[kOuterVolume].mark;
+  for (const VertexId v : c.vertex_ids()) {
+    components.around(v, found);
+    if (std::any_of(found.begin(), found.end(), is_wanted)) piece.vertices.push_back(v);
+  }
+  return PieceMaker(c, monitor).make(piece, [&](VertexId v, const SphereMapView& map, Kept& out) {
+    components.keep(is_wanted, v, map, out);
+  });
 }
 
 std::vector<Polyhedron> split_volumes(const Polyhedron& a, const Monitor& monitor) {

@@ -4,6 +4,7 @@
 #include "nef/base/error.h"
 #include "nef/complex/local_pyramid.h"
 #include "nef/geometry/integer_vector.h"
+#include "nef/geometry/vectors.h"
 #include "nef/location/query_structure.h"
 #include "nef/polyhedron.h"
 
@@ -36,9 +37,7 @@ SphereMapBuffer local_pyramid(const Polyhedron& a, const Rational3& point, const
 
 std::optional<RayHit> shoot_ray(const Polyhedron& a, const Rational3& origin, const Rational3& direction,
                                 const std::function<bool(const Location&)>& accept, const Monitor& monitor) {
-  if (direction[0] == 0 && direction[1] == 0 && direction[2] == 0) {
-    throw InputError("a ray needs a direction other than 0,0,0");
-  }
+  if (is_zero(direction)) throw InputError("a ray needs a direction other than 0,0,0");
   const Complex& complex = a.complex();
   if (complex.vertex_count() == 0) return std::nullopt;
   const Integer3 d = primitive(direction);

@@ -118,13 +118,6 @@ double times_root(const FacetRatio& ratio, const Integer& square) {
   return std::ldexp(numerator / denominator * std::sqrt(root), static_cast<int>(exponent));
 }
 
-bool has_finite_vertices(const Complex& c, const Facet& facet) {
-  for (const SHalfedgeId corner : c.corners_of(facet)) {
-    if (is_box_vertex(c, c.shalfedge_vertex(corner))) return false;
-  }
-  return true;
-}
-
 }  // namespace
 
 std::optional<Rational> volume(const Complex& c) {
@@ -141,7 +134,7 @@ std::optional<Rational> volume(const Complex& c) {
     }
     if (above == below) continue;
     // What bounds a volume from one side only and reaches infinity bounds an infinite volume.
-    if (!has_finite_vertices(c, facet)) continue;
+    if (!has_finite_corners(c, facet)) continue;
     const Integer offset = c.planes.oriented_coefficient(facet.plane, 3);
     if (offset == 0) continue;
     ratio.set(facet);
@@ -159,7 +152,7 @@ double surface_area(const Complex& c) {
   for (const FacetId f : c.facets.ids()) {
     const Facet& facet = c.facets[f];
     if (is_box_facet(c, f)) continue;
-    if (!has_finite_vertices(c, facet)) return std::numeric_limits<double>::infinity();
+    if (!has_finite_corners(c, facet)) return std::numeric_limits<double>::infinity();
     Integer length = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const IntegerView n = c.planes.coefficient(facet.plane, i);

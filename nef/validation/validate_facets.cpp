@@ -4,8 +4,9 @@
 // edges, lie in one plane, are oriented and nested as outer cycles and holes must be.
 #include <vector>
 
-#include "nef/complex/concrete_points.h"
 #include "nef/geometry/box_tree.h"
+#include "nef/mesh/polygon/triangulate.h"
+#include "nef/validation/concrete_points.h"
 #include "nef/validation/validate.h"
 
 namespace nef::detail {
@@ -115,7 +116,7 @@ void check_cycle_nesting(const Complex& c) {
   const IndexedVector<VertexId, Rational3> points = concrete_points(c);
   for (const FacetId f : c.facets.ids()) {
     const Facet& facet = c.facets[f];
-    const Projection projection = projection_of(c.planes, facet.plane);
+    const ProjectionAxis projection = projection_axis(c.planes, facet.plane);
     std::vector<std::vector<const Rational3*>> cycles;
     std::vector<Box> boxes(facet.cycle_count);
     for (std::uint32_t k = 0; k < facet.cycle_count; ++k) {

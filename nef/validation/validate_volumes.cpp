@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "nef/base/union_find.h"
-#include "nef/complex/concrete_points.h"
 #include "nef/complex/shell_sfaces.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/geometry/integer_vector.h"
 #include "nef/geometry/ray_filter.h"
+#include "nef/mesh/polygon/triangulate.h"
 #include "nef/sphere_map/sphere_geometry.h"
+#include "nef/validation/concrete_points.h"
 #include "nef/validation/validate.h"
 
 namespace nef::detail {
@@ -181,7 +182,7 @@ FirstFacet shoot(const Complex& c, const Targets& targets, VertexId origin, cons
     const Rational t = numerator / denominator;
     if (t <= 0 || (nearest && t >= *nearest)) return;
     const Rational3 hit{from[0] + t * along[0], from[1] + t * along[1], from[2] + t * along[2]};
-    const Projection projection = projection_of(c.planes, facet.plane);
+    const ProjectionAxis projection = projection_axis(c.planes, facet.plane);
     int number = 0;
     for (const CycleId k : facet.cycles()) {
       const Winding winding = winding_number(cycle_points(c, points, k), hit, projection.axis);

@@ -2,6 +2,7 @@
 //
 // Laws of Minkowski sums over a zoo of sets of all kinds: open, closed, neither, with missing points
 // and slits, lower-dimensional, disconnected, hollow.
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <optional>
 #include <string>
@@ -201,46 +202,46 @@ TEST_CASE("x is in A + B iff A meets x - B, for unbounded sets") {
   }
 }
 
-TEST_CASE("the progress function of a sum by cells counts thousandths of the work, and can stop it") {
-  const Polyhedron a = set("box(0,0,0,3,1,1) + box(0,0,0,1,3,1) + box(2,0,0,3,3,1) + box(0,0,0,1,1,3)");
-  nef::minkowski::MinkowskiOptions options;
-  options.strategy = nef::minkowski::UnionStrategy::kQueue;
+// Sums are told to stop by who is told that so much is done.
+void check_that_it_stops(const Polyhedron& a, nef::minkowski::UnionStrategy strategy, std::size_t at) {
+  std::atomic<bool> stop = false;
+  const nef::ProgressFunction told = [&](const char*, std::size_t done, std::size_t) { stop = stop || done >= at; };
+  const nef::Monitor monitor = nef::Monitor().telling(told).stopped_by(&stop);
+  CHECK_THROWS_AS(minkowski_sum(a, a, {strategy, monitor}), nef::Interrupted);
+}
+
+// The thousandths that a sum of a set and itself tells of.
+std::vector<std::size_t> told_of(const Polyhedron& a, nef::minkowski::UnionStrategy strategy,
+                                 nef::minkowski::MinkowskiReport& report) {
   std::vector<std::size_t> seen{0};
-  options.progress = [&seen](std::size_t done, std::size_t all) {
+  const nef::ProgressFunction told = [&seen](const char* phase, std::size_t done, std::size_t all) {
+    if (phase != nef::minkowski::kSumPhase) return;
     CHECK(seen.back() <= done);
     CHECK(done <= all);
     CHECK(all == 1000);
     seen.push_back(done);
-    return true;
   };
-  nef::minkowski::MinkowskiReport report;
-  minkowski_sum(a, a, options, &report);
+  minkowski_sum(a, a, {strategy, nef::Monitor().telling(told)}, &report);
   CHECK(seen.back() == 1000);
+  return seen;
+}
+
+TEST_CASE("who watches a sum by cells is told thousandths of the work, and can stop it") {
+  const Polyhedron a = set("box(0,0,0,3,1,1) + box(0,0,0,1,3,1) + box(2,0,0,3,3,1) + box(0,0,0,1,1,3)");
+  nef::minkowski::MinkowskiReport report;
+  const std::vector<std::size_t> seen = told_of(a, nef::minkowski::UnionStrategy::kQueue, report);
   CHECK(seen.size() > report.pairs);
   // No step is longer than half of it all: it goes by what is united, not by what went into the union.
   for (std::size_t i = 2; i < seen.size(); ++i) CHECK(seen[i] - seen[i - 1] < 500);
-  options.progress = [](std::size_t done, std::size_t) { return done < 500; };
-  CHECK_THROWS_AS(minkowski_sum(a, a, options), nef::Interrupted);  // in the union
-  options.progress = [](std::size_t, std::size_t) { return false; };
-  CHECK_THROWS_AS(minkowski_sum(a, a, options), nef::Interrupted);
+  check_that_it_stops(a, nef::minkowski::UnionStrategy::kQueue, 500);  // in the union
+  check_that_it_stops(a, nef::minkowski::UnionStrategy::kQueue, 0);
 }
 
-TEST_CASE("the progress function of a sum without cells counts thousandths and can stop it") {
+TEST_CASE("who watches a sum without cells is told thousandths, and can stop it") {
   const Polyhedron a = set("box(0,0,0,3,1,1) + box(0,0,0,1,3,1)");
-  nef::minkowski::MinkowskiOptions options;
-  options.strategy = nef::minkowski::UnionStrategy::kConvolution;
-  std::size_t last = 0;
-  options.progress = [&last](std::size_t done, std::size_t all) {
-    CHECK(last <= done);
-    CHECK(done <= all);
-    CHECK(all == 1000);
-    last = done;
-    return true;
-  };
-  minkowski_sum(a, a, options);
-  CHECK(last == 1000);
-  options.progress = [](std::size_t done, std::size_t all) { return done < all; };
-  CHECK_THROWS_AS(minkowski_sum(a, a, options), nef::Interrupted);
+  nef::minkowski::MinkowskiReport report;
+  CHECK(told_of(a, nef::minkowski::UnionStrategy::kConvolution, report).size() > 2);
+  check_that_it_stops(a, nef::minkowski::UnionStrategy::kConvolution, 1000);
 }
 
 TEST_CASE("convexity with marks") {

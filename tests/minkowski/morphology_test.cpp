@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "apps/minkowski/convex/tools.h"
 #include "apps/minkowski/morphology.h"
 #include "apps/program/expression/expression.h"
 #include "nef/geometry/vectors.h"

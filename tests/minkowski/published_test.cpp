@@ -6,8 +6,8 @@
 #include <tuple>
 #include <vector>
 
-#include "apps/minkowski/convex/tools.h"
 #include "apps/minkowski/minkowski.h"
+#include "apps/minkowski/morphology.h"
 #include "nef/construct/planar_hull.h"
 #include "nef/geometry/vectors.h"
 #include "nef/io/mesh/mesh_reader.h"
@@ -99,7 +99,8 @@ TEST_CASE("the polytopes of Fogel and Halperin: published counts, exact volumes,
 
 TEST_CASE("a fine ball, whose sums are few and large, united in every order") {
   const Polyhedron corner = set("box(0,0,0,3,1,1) + box(0,0,0,1,3,1)");
-  const Polyhedron ball = to_polyhedron(nef::minkowski::ball(Rational(1, 3), 9));
+  const Polyhedron ball =
+      to_polyhedron(nef::minkowski::ball_approximation(Rational(1, 3), 9, nef::minkowski::Side::kInner).cell);
   const Polyhedron sum = nef::test::valid(minkowski_sum(corner, ball), "sum");
   const std::vector<Polyhedron> sums = nef::test::sums_of_cells(corner, ball);
   for (const auto& [name, order] : nef::test::kUnionOrders) CHECK(nef::equal(united(sums, order), sum));
@@ -131,7 +132,8 @@ Rational double_shadow(const ConvexCell& cell, std::size_t axis) {
 TEST_CASE("Steiner's formula for a box and a polygonal ball, exactly") {
   const Rational3 side = {Rational(3), Rational(5, 2), Rational(7, 3)};
   for (const int splits : {1, 2, 3}) {
-    const ConvexCell ball = nef::minkowski::ball(Rational(2, 3), splits);
+    const ConvexCell ball =
+        nef::minkowski::ball_approximation(Rational(2, 3), splits, nef::minkowski::Side::kInner).cell;
     CHECK(ball.mesh.vertices.size() == static_cast<std::size_t>(4 * splits * splits + 2));
     const Polyhedron sum =
         minkowski_sum(nef::make_box({Rational(0), Rational(0), Rational(0)}, side), to_polyhedron(ball));

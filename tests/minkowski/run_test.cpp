@@ -190,10 +190,15 @@ TEST_CASE("command: open operands, a mirrored one, offsets by a ball and a box")
 TEST_CASE("command: cells of a decomposition to a coloured file and into a directory") {
   const Place place;
   place.write("a.nef", std::string(kL) + " + segment(3,1,1, 5,5,5)");
-  CHECK(place.run("--decompose a.nef -o cells.off").out == "3 cells\n");
-  // Two hulls of 8 vertices and 6 faces, one edge.
-  const std::string off = place.read("cells.off");
-  CHECK(off.rfind("OFF\n18 13 0\n", 0) == 0);
+  const Outcome in_off = place.run("--decompose a.nef -o cells.off");
+  CHECK(in_off.out == "3 cells\n");
+  CHECK(in_off.err.find("1 of the cells are segments or points, which OFF leaves out") != std::string::npos);
+  // Two hulls of 8 vertices and 6 faces.
+  CHECK(place.read("cells.off").rfind("OFF\n16 12 0\n", 0) == 0);
+  CHECK(nef::read_mesh(place / "cells.off").face_count() == 12);
+  CHECK(place.run("--decompose a.nef -o cells.glb -q").code == 0);
+  CHECK(nef::read_mesh(place / "cells.glb").face_count() == 24);
+  CHECK(nef::read_mesh(place / "cells.glb#cell_2").face_count() == 12);
   // A cell's place in the file and the offset are its place in space.
   place.write("far.nef", "box(100,0,0,103,1,1) + box(100,0,0,101,3,1)");
   CHECK(place.run("--decompose far.nef -o there.off --exact").code == 0);
@@ -361,7 +366,7 @@ TEST_CASE("command: bad usage and bad input are one line on stderr, code 2, and 
       {"--configuration-space --robot a.nef --obstacles a.nef --box 0,1,0,1,0,1 -o out.nef", "lower corner"},
       {"a.nef a.nef --format ply -o out.nef", "--format"},
       {"--decompose a.nef --ball 1,2 -o out.off", "--decompose"},
-      {"--decompose a.nef -o out.txt", "off, ply or obj"},
+      {"--decompose a.nef -o out.txt", "off, obj, stl"},
       {"a.nef a.nef --erode --open -o out.nef", "two tasks"},
       {"a.nef a.nef --penetration -o out.nef", "takes no -o"},
       {"a.nef a.nef --offset 1 -o out.nef", "one operand"},

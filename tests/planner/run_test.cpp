@@ -275,7 +275,7 @@ TEST_CASE("long work tells how far it is") {
     }
   };
   const Problem problem(rail, Monitor().telling(told));
-  CHECK(phases == std::vector<std::string>{"configuration space", "roadmap"});
+  CHECK(phases == std::vector<std::string>{"Minkowski sum", "roadmap"});
   CHECK(last > 0);
 }
 

@@ -12,55 +12,6 @@
 #include "nef/base/error.h"
 
 namespace nef::minkowski {
-namespace {
-
-// p - o up to a positive factor.
-Integer3 difference(const PointTable& points, PointId p, PointId o) {
-  Integer3 d;
-  for (std::size_t i = 0; i < 3; ++i) {
-    mpz_mul(d[i].get_mpz_t(), points.coordinate(p, i), points.coordinate(o, 3));
-    mpz_submul(d[i].get_mpz_t(), points.coordinate(o, i), points.coordinate(p, 3));
-  }
-  return d;
-}
-
-PlaneId plane_of_points(PlaneTable& planes, const PointTable& points, PointId o, PointId p, PointId q) {
-  const Integer3 u = difference(points, p, o);
-  const Integer3 v = difference(points, q, o);
-  Integer3 n;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    const std::size_t k = (i + 2) % 3;
-    mpz_mul(n[i].get_mpz_t(), u[j].get_mpz_t(), v[k].get_mpz_t());
-    mpz_submul(n[i].get_mpz_t(), u[k].get_mpz_t(), v[j].get_mpz_t());
-  }
-  return plane_through(planes, points, n, o);
-}
-
-}  // namespace
-
-PlaneId plane_through(PlaneTable& planes, const PointTable& points, const Integer3& normal, PointId o) {
-  // Common factors go while numbers are short: of the normal first, mostly 1, then of the point's denominator and the
-  // offset; the plane that is left has none.
-  Integer3 n = normal;
-  Integer divisor;
-  for (std::size_t i = 0; i < 3 && divisor != 1; ++i) {
-    mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), n[i].get_mpz_t());
-  }
-  if (divisor != 1) {
-    for (Integer& x : n) mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), divisor.get_mpz_t());
-  }
-  Integer offset;
-  for (std::size_t i = 0; i < 3; ++i) mpz_submul(offset.get_mpz_t(), n[i].get_mpz_t(), points.coordinate(o, i));
-  mpz_gcd(divisor.get_mpz_t(), offset.get_mpz_t(), points.coordinate(o, 3));
-  mpz_divexact(offset.get_mpz_t(), offset.get_mpz_t(), divisor.get_mpz_t());
-  mpz_divexact(divisor.get_mpz_t(), points.coordinate(o, 3), divisor.get_mpz_t());
-  if (divisor != 1) {
-    for (Integer& x : n) x *= divisor;
-  }
-  return planes.intern_primitive({n[0].get_mpz_t(), n[1].get_mpz_t(), n[2].get_mpz_t(), offset.get_mpz_t()});
-}
-
 ExactCells::ExactCells(std::span<const ConvexCell> cells, const RoundedCells& rounded, const Monitor& monitor)
     : cells_(cells), rounded_(rounded), plane_(rounded.face_count()), monitor_(monitor) {
   std::size_t vertices = 0;
@@ -80,10 +31,10 @@ PlaneId ExactCells::plane(std::uint32_t face) {
     const auto c = corners(face);
     const PointId o = point(cell, c[0]);
     const std::vector<Integer3>& normals = cells_[cell].normals;
-    if (!normals.empty()) return plane_[face] = plane_through(planes, points, normals[local(face)], o);
+    if (!normals.empty()) return plane_[face] = finder_.through(planes, points, normals[local(face)], o);
     const PointId p = point(cell, c[c.size() / 3]);
     const PointId q = point(cell, c[2 * c.size() / 3]);
-    plane_[face] = plane_of_points(planes, points, o, p, q);
+    plane_[face] = finder_.through(planes, points, o, p, q);
   }
   return plane_[face];
 }

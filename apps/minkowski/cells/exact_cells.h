@@ -10,13 +10,11 @@
 
 #include "apps/minkowski/cells/rounded_cells.h"
 #include "nef/base/monitor.h"
+#include "nef/geometry/plane_finder.h"
 #include "nef/geometry/predicates.h"
 #include "nef/sphere_map/arrangement.h"
 
 namespace nef::minkowski {
-
-/// The plane of a normal through a point, its positive side where the normal points. O(1).
-PlaneId plane_through(PlaneTable& planes, const PointTable& points, const Integer3& normal, PointId o);
 
 /// Where a point lies in a closed convex solid.
 struct CellLocation {
@@ -69,6 +67,7 @@ class ExactCells {
   std::vector<std::uint32_t> point_of_;  // per vertex, kNone until asked for
   Monitor monitor_;
   Arrangement drawing_;
+  PlaneFinder finder_;
   std::uint64_t doubtful_ = 0;
 };
 

@@ -27,21 +27,12 @@ std::optional<Meeting> MeetingPoints::meet(const std::array<PlaneId, 3>& planes)
     if (tried->second == kNone) return std::nullopt;
     return Meeting{PointId{tried->second}, false, true, 0};
   }
-  const std::optional<PointId> raw = points_.push_intersection(planes_, planes[0], planes[1], planes[2]);
+  const std::optional<PointId> raw = raw_.push_intersection(planes_, planes[0], planes[1], planes[2]);
   if (!raw) return std::nullopt;
-  const std::size_t limbs = mpz_size(points_.coordinate(*raw, 3));
+  const std::size_t limbs = mpz_size(raw_.coordinate(*raw, 3));
   // Without a common factor equal points have equal coordinates.
-  std::array<Integer, 7> coordinates;
-  Integer divisor;
-  for (std::size_t i = 0; i < 4; ++i) {
-    mpz_set(coordinates[i].get_mpz_t(), points_.coordinate(*raw, i));
-    mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), coordinates[i].get_mpz_t());
-  }
-  points_.pop();
-  for (std::size_t i = 0; i < 4; ++i) {
-    mpz_divexact(coordinates[i].get_mpz_t(), coordinates[i].get_mpz_t(), divisor.get_mpz_t());
-  }
-  const PointId pushed = points_.push_homogeneous(coordinates);
+  const PointId pushed = points_.push_reduced(raw_, *raw);
+  raw_.pop();
   const PointId point = first_equal(pushed);
   const bool is_new = point == pushed;
   if (!is_new) points_.pop();

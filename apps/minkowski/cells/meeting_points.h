@@ -44,6 +44,7 @@ class MeetingPoints {
 
   const PlaneTable& planes_;
   PointTable& points_;
+  PointTable raw_;                                                                     // the meeting at hand
   std::unordered_multimap<std::uint64_t, std::uint32_t> seen_;                         // hash of coordinates -> point
   std::unordered_map<std::array<std::uint32_t, 3>, std::uint32_t, TripleHash> tried_;  // rows -> point or kNone
 };

@@ -41,7 +41,7 @@ RoundedCells::RoundedCells(std::span<const ConvexCell> cells) {
   for (const ConvexCell& cell : cells) {
     Box& box = boxes_.emplace_back();
     for (const Rational3& p : cell.mesh.vertices) {
-      const Double3 x = {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])};
+      const Double3 x = nearest_doubles(p);
       for (const double value : x) extent_ = std::max(extent_, std::fabs(value));
       vertices_.push_back(x);
       box.add_rounded(x);

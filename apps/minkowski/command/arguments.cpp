@@ -82,8 +82,8 @@ void declare_tasks(CLI::App& app, Arguments& a) {
       ->check(CLI::IsMember({3}));
   app.add_flag("--decompose", a.decompose, "Write the convex cells of A, to one mesh file or into a directory");
   app.add_option("--format", a.format,
-                 "Format of cells in a directory: off (default), ply, obj, or nef (exact, with marks)")
-      ->check(CLI::IsMember({"off", "ply", "obj", "nef"}));
+                 "Format of cells in a directory: that of a mesh (default: off), or nef (exact, with marks)")
+      ->check(CLI::IsMember(file_extensions()));
   app.add_flag("--configuration-space", a.configuration_space, "Free positions of a robot among obstacles");
   app.add_option("--robot", a.robot, "The robot; its reference point is the origin")->type_name("FILE");
   app.add_option("--obstacles", a.obstacles, "The obstacles")->expected(-1)->type_name("FILE");

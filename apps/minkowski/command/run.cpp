@@ -14,7 +14,6 @@
 #include "apps/minkowski/command/preview.h"
 #include "apps/minkowski/command/signals_held.h"
 #include "apps/minkowski/command/write_cells.h"
-#include "apps/minkowski/convex/tools.h"
 #include "apps/minkowski/morphology.h"
 #include "apps/program/numbers.h"
 #include "apps/program/report.h"
@@ -37,6 +36,7 @@ class Run {
  public:
   Run(Arguments& arguments, Task task) : a_(arguments), session_(arguments.session), task_(task) {
     options_.strategy = strategy(a_);
+    session_.monitor = session_.monitor.telling(show_);
     options_.monitor = session_.monitor;
   }
 
@@ -111,16 +111,17 @@ class Run {
     if (!a_.ball.empty()) return ball_tool();
     if (!a_.box_tool.empty()) {
       const std::vector<Rational> n = parse_numbers(a_.box_tool, 3, "--box-tool");
-      return to_polyhedron(box_tool({n[0], n[1], n[2]}));
+      Rational3 low;
+      for (std::size_t i = 0; i < 3; ++i) low[i] = n[i] / -2;
+      for (const Rational& x : n) {
+        if (sgn(x) < 0) throw InputError("an extent of a box must not be negative: " + brief_text(x));
+      }
+      return make_box(low, {Rational(-low[0]), Rational(-low[1]), Rational(-low[2])});
     }
     return load(a_.operands[1]);
   }
 
   Polyhedron compute() {
-    options_.progress = [this](std::size_t done, std::size_t all) {
-      session_.show_phase(name(task_) + ", %", done / 10, all / 10);
-      return true;
-    };
     switch (task_) {
       case Task::kConfigurationSpace:
         return free_space();
@@ -327,6 +328,7 @@ class Run {
       return write_cells(session_.output, cells,
                          {.format = a_.format.empty() ? "off" : a_.format,
                           .exact = session_.exact,
+                          .binary = session_.binary,
                           .recenter = session_.mesh_file.recenter,
                           .lenient = session_.mesh_file.lenient},
                          notes);
@@ -385,6 +387,9 @@ class Run {
   const Arguments& a_;
   Session& session_;
   Task task_;
+  ProgressFunction show_ = [this](const char* phase, std::size_t done, std::size_t total) {
+    session_.show_phase(phase, done, total);
+  };
   MinkowskiOptions options_;
   MinkowskiReport report_;
   Json details_ = Json::object();                          // of the task, for the report

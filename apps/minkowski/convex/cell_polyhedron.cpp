@@ -7,11 +7,11 @@
 #include <map>
 #include <utility>
 
-#include "apps/minkowski/cells/exact_cells.h"
 #include "apps/minkowski/convex/convex_cell.h"
 #include "nef/base/error.h"
 #include "nef/complex/rewrite_sphere_maps.h"
 #include "nef/construct/solid.h"
+#include "nef/geometry/plane_finder.h"
 #include "nef/polyhedron.h"
 
 namespace nef::minkowski {

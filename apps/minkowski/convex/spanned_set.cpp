@@ -18,11 +18,6 @@ using nef::cross;
 using nef::dot;
 using nef::minus;
 
-// A vector that is not parallel to d.
-Rational3 across(const Rational3& d) {
-  return d[0] == 0 && d[1] == 0 ? Rational3{1, 0, 0} : Rational3{Rational(-d[1]), d[0], 0};
-}
-
 // Half-spaces n.x <= n.p and planes n.x = n.p whose intersection is the set; there are rays.
 struct Constraint {
   Rational3 n, p;

@@ -13,6 +13,7 @@
 #include "apps/minkowski/convolution/marks/boundary_marker.h"
 #include "apps/minkowski/convolution/marks/direction_into.h"
 #include "apps/minkowski/convolution/region_vertices.h"
+#include "apps/minkowski/part_of_sum.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/base/union_find.h"
 #include "nef/sphere_map/sphere_geometry.h"
@@ -88,8 +89,7 @@ struct RegionsInside {
 
 // For each region around a vertex whether it is inside.
 RegionsInside regions_inside(const ConvolutionFacets& facets, FacetPyramids& pyramids, const SumMembership& membership,
-                             const std::vector<RegionVertex>& vertices, Regions& regions, const Monitor& monitor,
-                             const std::function<void(double)>& poll) {
+                             const std::vector<RegionVertex>& vertices, Regions& regions, const Monitor& monitor) {
   enum : std::uint8_t { kOut, kIn, kUnknown, kAsked };
   std::vector<std::uint8_t> state(regions.same.size(), kUnknown);
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
@@ -112,7 +112,7 @@ RegionsInside regions_inside(const ConvolutionFacets& facets, FacetPyramids& pyr
       const Direction into =
           v.map.view().trivial() ? Direction::exact(1, 0, 0) : direction_into(facets.planes, v.map.view(), f, monitor);
       Rational3 point = pyramids.point_towards(v.point, into);
-      const Double3 near = {nearest_double(point[0]), nearest_double(point[1]), nearest_double(point[2])};
+      const Double3 near = nearest_doubles(point);
       if (facets.covered.cover({&near, 1})) {
         state[region] = kIn;
       } else {
@@ -122,7 +122,7 @@ RegionsInside regions_inside(const ConvolutionFacets& facets, FacetPyramids& pyr
   }
   constexpr std::size_t kBlock = 64;
   for (std::size_t first = 0; first < questions.size(); first += kBlock) {
-    poll(static_cast<double>(first) / static_cast<double>(questions.size()));
+    monitor.tell_progress(kSumPhase, first, questions.size());
     parallel_for(std::min(kBlock, questions.size() - first), monitor, [&](std::size_t k, const Monitor& own) {
       const Question& q = questions[first + k];
       state[q.region] = membership.in_closure(q.point, own) ? kIn : kOut;
@@ -134,8 +134,8 @@ RegionsInside regions_inside(const ConvolutionFacets& facets, FacetPyramids& pyr
 
 // Marks all items around all vertices; says how many were put to the definition.
 std::size_t mark_boundary(const ConvolutionFacets& facets, FacetPyramids& pyramids, const SumMembership& membership,
-                          const Regions& regions, const std::vector<std::uint8_t>& inside, const Monitor& monitor,
-                          const std::function<void(double)>& poll, std::vector<RegionVertex>& vertices) {
+                          const Regions& regions, const std::vector<std::uint8_t>& inside,
+                          std::vector<RegionVertex>& vertices, const Monitor& monitor) {
   BoundaryMarker marker(pyramids, facets, monitor);
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
     RegionVertex& v = vertices[i];
@@ -149,7 +149,7 @@ std::size_t mark_boundary(const ConvolutionFacets& facets, FacetPyramids& pyrami
       marker.mark(v.point, v.is_saddle_point, v.map);
     }
   }
-  marker.answer(membership, poll);
+  marker.answer(membership);
   return marker.tested();
 }
 
@@ -171,21 +171,20 @@ Complex complex_of(const ConvolutionFacets& facets, PlaneTable& planes, const st
 
 SumOfRegions sum_of_regions(ConvolutionFacets& facets, const RoundedFacets& rounded,
                             const SurvivingIntervals& intervals, const SumMembership& membership,
-                            std::span<const SaddlePoint> saddles, const Monitor& monitor,
-                            const std::function<void(double)>& poll) {
+                            std::span<const SaddlePoint> saddles, const Monitor& monitor) {
   // Shares of the time are measured, for the bar only.
+  const PartOfSum points(monitor, 0, 0.4);
+  const PartOfSum tests(monitor, 0.4, 0.8);
+  const PartOfSum marks(monitor, 0.8, 0.95);
   const BoxTree tree(rounded.boxes());
   FacetPyramids pyramids(facets, rounded, tree, monitor);
-  RegionVertices found = region_vertices(facets, tree, pyramids, intervals, membership, saddles, monitor,
-                                         [&poll](double share) { poll(0.4 * share); });
+  RegionVertices found = region_vertices(facets, tree, pyramids, intervals, membership, saddles, points.monitor());
   Regions regions = joined_regions(facets, intervals, found, monitor);
-  const RegionsInside known = regions_inside(facets, pyramids, membership, found.vertices, regions, monitor,
-                                             [&poll](double share) { poll(0.4 + 0.4 * share); });
-  const std::size_t items = mark_boundary(
-      facets, pyramids, membership, regions, known.inside, monitor, [&poll](double share) { poll(0.8 + 0.15 * share); },
-      found.vertices);
+  const RegionsInside known = regions_inside(facets, pyramids, membership, found.vertices, regions, tests.monitor());
+  const std::size_t items =
+      mark_boundary(facets, pyramids, membership, regions, known.inside, found.vertices, marks.monitor());
   SumOfRegions result{complex_of(facets, facets.planes, found.vertices, monitor), found.points, known.tested + items};
-  poll(1);
+  monitor.tell_progress(kSumPhase, 1, 1);
   return result;
 }
 

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <span>
 
 #include "apps/minkowski/convolution/arrangement/surviving_intervals.h"
@@ -24,11 +23,10 @@ struct SumOfRegions {
 /// Takes the points at which surviving intervals end, finds the regions around them, joins those that an interval
 /// joins, and makes the sum. A region is inside if it is just behind a facet. Of others, a point on no facet is put to
 /// the definition. If the sum need not be closed, so are its saddle points, places where it may be as narrow as it can
-/// be, and what cannot be told by facets there. The facets' tables get more planes and points. `poll` is called with
-/// the share that is done and may throw.
+/// be, and what cannot be told by facets there. The facets' tables get more planes and points. The monitor is
+/// told of kSumPhase.
 SumOfRegions sum_of_regions(ConvolutionFacets& facets, const RoundedFacets& rounded,
                             const SurvivingIntervals& intervals, const SumMembership& membership,
-                            std::span<const SaddlePoint> saddles, const Monitor& monitor,
-                            const std::function<void(double)>& poll);
+                            std::span<const SaddlePoint> saddles, const Monitor& monitor);
 
 }  // namespace nef::minkowski

@@ -12,7 +12,7 @@
 #include "apps/minkowski/convolution/convolution_regions.h"
 #include "apps/minkowski/convolution/marks/interlock.h"
 #include "apps/minkowski/decomposition/decomposition.h"
-#include "apps/minkowski/minkowski.h"
+#include "apps/minkowski/part_of_sum.h"
 #include "nef/base/defect.h"
 
 namespace nef::minkowski {
@@ -68,20 +68,19 @@ constexpr std::size_t kMostStackedPairs = std::size_t{1} << 22U;
 
 }  // namespace
 
-std::optional<Polyhedron> convolution_sum(const Polyhedron& set_a, const Polyhedron& set_b,
-                                          const ConvolutionOptions& options, ConvolutionReport& report) {
-  const Monitor& monitor = options.monitor;
+std::optional<Polyhedron> convolution_sum(const Polyhedron& set_a, const Polyhedron& set_b, bool only_if_fast,
+                                          ConvolutionReport& report, const Monitor& monitor) {
   const auto decline = [&report](std::string why) {
     report.why = std::move(why);
     return std::nullopt;
   };
-  if (options.only_if_fast && is_convex(set_a, monitor) && is_convex(set_b, monitor))
+  if (only_if_fast && is_convex(set_a, monitor) && is_convex(set_b, monitor))
     return decline("both operands are convex");
   const Polyhedron a = filled(set_a, monitor);
   const Polyhedron b = filled(set_b, monitor);
   const SolidFeatures of_a(a, monitor);
   const SolidFeatures of_b(b, monitor);
-  if (options.only_if_fast && marks_of_sum(of_a.marks(), of_b.marks()) == BoundaryMarks::kMixed) {
+  if (only_if_fast && marks_of_sum(of_a.marks(), of_b.marks()) == BoundaryMarks::kMixed) {
     const std::size_t stacked = stacked_pairs(of_a, of_b, monitor);
     if (stacked > kMostStackedPairs)
       return decline("parts of the boundary are missing, and " + std::to_string(stacked) +
@@ -101,20 +100,14 @@ std::optional<Polyhedron> convolution_sum(const Polyhedron& set_a, const Polyhed
     }
     saddles = saddle_points(a, b, membership, facets.covered, monitor);
   }
-  const auto poll = [&options](double share) {
-    if (options.poll) options.poll(share);
-  };
   // Shares of the time are measured, for the bar only.
   constexpr double kOfIntervals = 0.2;
   const RoundedFacets rounded(facets);
   if (!rounded.are_proven()) return decline("coordinates are too large or too small for doubles");
-  IntervalOptions how;
-  how.passages = !is_closed;
-  how.monitor = monitor;
-  how.poll = [&poll](double share) { poll(kOfIntervals * share); };
-  const SurvivingIntervals intervals = surviving_intervals(facets, rounded, membership, how);
-  SumOfRegions made = sum_of_regions(facets, rounded, intervals, membership, saddles, monitor,
-                                     [&poll](double share) { poll(kOfIntervals + (1 - kOfIntervals) * share); });
+  const PartOfSum first(monitor, 0, kOfIntervals);
+  const SurvivingIntervals intervals = surviving_intervals(facets, rounded, membership, !is_closed, first.monitor());
+  const PartOfSum second(monitor, kOfIntervals, 1);
+  SumOfRegions made = sum_of_regions(facets, rounded, intervals, membership, saddles, second.monitor());
   // Synthesis checks what it is given, but not all that wrong marks on the boundary would lead to: a facet whose border
   // turns the wrong way.
   if (!is_closed) {

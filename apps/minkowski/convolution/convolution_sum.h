@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -31,22 +30,16 @@ bool has_convolution(const Polyhedron& a);
 /// single points; convolution_sum takes these, too. O(n).
 bool have_closed_convolution(const Polyhedron& a, const Polyhedron& b);
 
-struct ConvolutionOptions {
-  /// Sets of which cells are likely to be faster are left alone: where both are convex, and where parts of the boundary
-  /// are missing and millions of pairs of facets of the convolution lie in one plane upon each other.
-  bool only_if_fast = false;
-  std::function<void(double)> poll;  ///< called with the share that is done, 0 to 1; may throw
-  Monitor monitor = {};              ///< who watches; what it refers to must outlive the call
-};
-
-/// A + B for two such sets; nothing if the options ask for that. The facets
+/// A + B for two such sets. If `only_if_fast`, those of which cells are likely to be faster are left alone, and the
+/// result is nothing: where both are convex, and where parts of the boundary are missing and millions of pairs of
+/// facets of the convolution lie in one plane upon each other. The monitor is told of kSumPhase. The facets
 /// of the reduced convolution are arranged, without what is surely inside; what regions they leave is inside if it is
 /// just behind a facet, and the others are tested: x is in A + B iff A meets x - B. If A or B lacks something of its
 /// boundary, so may the sum, and passages as narrow as what passes (BoundaryMarker). Nothing also for sums whose size
 /// is not between 2^-200 and 2^200 (has_moderate_size), and for these, all rare, of sets that are not closed: edges
 /// with more than one wedge where neither set is convex; a single point in a facet that is marked unlike it; a facet
 /// that is not in the set with an edge or vertex that is, and something parallel to it.
-std::optional<Polyhedron> convolution_sum(const Polyhedron& a, const Polyhedron& b, const ConvolutionOptions& options,
-                                          ConvolutionReport& report);
+std::optional<Polyhedron> convolution_sum(const Polyhedron& a, const Polyhedron& b, bool only_if_fast,
+                                          ConvolutionReport& report, const Monitor& monitor);
 
 }  // namespace nef::minkowski

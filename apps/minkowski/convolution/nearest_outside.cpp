@@ -102,8 +102,8 @@ struct NearestPoint {
 
 class Search {
  public:
-  Search(const Polyhedron& a, const Polyhedron& b, const OutsideOptions& options)
-      : a_(a), b_(b), options_(options), monitor_(options.monitor), membership_(a, b, options.monitor) {}
+  Search(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor)
+      : a_(a), b_(b), monitor_(monitor), membership_(a, b, monitor) {}
 
   std::optional<NearestOutside> run(std::string& why) {
     const bool convex_a = is_convex(closure(a_, monitor_), monitor_);
@@ -122,7 +122,7 @@ class Search {
     leave_by_axes();
     leave_by_fan();
     // Shares of the time are measured, for the bar only.
-    options_.poll(0.1);
+    monitor_.tell_progress(kSumPhase, 1, 10);
     const NearOrigin near(bound_);
     facets_ = reduced_convolution(of_a, of_b, monitor_, near);
     const RoundedFacets rounded(facets_);
@@ -131,7 +131,7 @@ class Search {
       return std::nullopt;
     }
     rounded_ = &rounded;
-    options_.poll(0.4);
+    monitor_.tell_progress(kSumPhase, 4, 10);
     if (may_interlock) {
       for (const SaddlePoint& saddle : saddle_points(a_, b_, membership_, facets_.covered, monitor_, near)) {
         try_point(saddle.point);
@@ -139,11 +139,11 @@ class Search {
     }
     find_on_planes();
     try_candidates();
-    options_.poll(0.6);
+    monitor_.tell_progress(kSumPhase, 6, 10);
     find_on_segments();
-    options_.poll(0.8);
+    monitor_.tell_progress(kSumPhase, 8, 10);
     try_candidates();
-    options_.poll(1);
+    monitor_.tell_progress(kSumPhase, 10, 10);
     result_.facets = near_facets_.size();
     return std::move(result_);
   }
@@ -361,8 +361,7 @@ class Search {
     result_.candidates += candidates_.size();
     for (const NearestPoint& c : candidates_) {
       if (c.lower > bound_) break;
-      options_.poll(0.8);
-      monitor_.check_interruption();
+      monitor_.tell_progress(kSumPhase, 8, 10);
       const std::optional<Rational3> point = exact_point(c);
       if (point && tried_.insert(*point).second) try_point(*point);
     }
@@ -371,7 +370,6 @@ class Search {
 
   const Polyhedron& a_;
   const Polyhedron& b_;
-  const OutsideOptions& options_;
   Monitor monitor_;
   SumMembership membership_;
   ConvolutionFacets facets_;
@@ -386,9 +384,9 @@ class Search {
 
 }  // namespace
 
-std::optional<NearestOutside> nearest_outside(const Polyhedron& a, const Polyhedron& b, const OutsideOptions& options,
-                                              std::string& why) {
-  return Search(a, b, options).run(why);
+std::optional<NearestOutside> nearest_outside(const Polyhedron& a, const Polyhedron& b, std::string& why,
+                                              const Monitor& monitor) {
+  return Search(a, b, monitor).run(why);
 }
 
 }  // namespace nef::minkowski

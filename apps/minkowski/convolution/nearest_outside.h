@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 
@@ -23,18 +22,14 @@ struct NearestOutside {
   std::size_t tested = 0;      ///< points that were put to the definition
 };
 
-struct OutsideOptions {
-  std::function<void(double)> poll;  ///< called with the share that is done, 0 to 1; may throw; not empty
-  Monitor monitor = {};              ///< who watches; what it refers to must outlive the call
-};
-
 /// The point outside of int A + int B that is nearest to the origin (one of them), for two open bounded sets that are
 /// the interiors of their closures, neither of them empty, whose sum holds the origin. Nothing, with the reason in
 /// `why`, for a few kinds of sets: two convex ones, whose sum is soon made; sizes that are not moderate
 /// (has_moderate_size); edges with several wedges where neither set is convex.
 /// O(n m) boxes for n and m features, pairs and triples of the facets of the convolution that come nearer to the origin
-/// than the answer, and a test of membership (IntersectionQuery) for each candidate that is nearer.
-std::optional<NearestOutside> nearest_outside(const Polyhedron& a, const Polyhedron& b, const OutsideOptions& options,
-                                              std::string& why);
+/// than the answer, and a test of membership (IntersectionQuery) for each candidate that is nearer. The monitor is told
+/// of kSumPhase.
+std::optional<NearestOutside> nearest_outside(const Polyhedron& a, const Polyhedron& b, std::string& why,
+                                              const Monitor& monitor);
 
 }  // namespace nef::minkowski

@@ -16,6 +16,7 @@
 #include "apps/minkowski/cells/meeting_points.h"
 #include "apps/minkowski/convolution/arrangement/pyramid_drawer.h"
 #include "apps/minkowski/convolution/marks/boundary_marker.h"
+#include "apps/minkowski/minkowski.h"
 #include "nef/base/threads/parallel.h"
 
 namespace nef::minkowski {
@@ -60,7 +61,7 @@ class VertexFinder {
         is_closed_(facets.marks == BoundaryMarks::kAll),
         meetings_(facets.planes, facets.points) {}
 
-  void add_points(std::span<const SaddlePoint> saddles, const std::function<void(double)>& poll);
+  void add_points(std::span<const SaddlePoint> saddles);
   RegionVertices finish();
 
  private:
@@ -304,9 +305,9 @@ void VertexFinder::add_interval(const SurvivingInterval& interval) {
   joints_.push_back({interval.segment, from, to});
 }
 
-void VertexFinder::add_points(std::span<const SaddlePoint> saddles, const std::function<void(double)>& poll) {
+void VertexFinder::add_points(std::span<const SaddlePoint> saddles) {
   for (std::size_t i = 0; i < intervals_.intervals.size(); ++i) {
-    if (i % 64 == 0) poll(static_cast<double>(i) / static_cast<double>(intervals_.intervals.size()));
+    if (i % 64 == 0) monitor_.tell_progress(kSumPhase, i, intervals_.intervals.size());
     add_interval(intervals_.intervals[i]);
   }
   draw_points();
@@ -328,10 +329,9 @@ RegionVertices VertexFinder::finish() {
 
 RegionVertices region_vertices(ConvolutionFacets& facets, const BoxTree& tree, FacetPyramids& pyramids,
                                const SurvivingIntervals& intervals, const SumMembership& membership,
-                               std::span<const SaddlePoint> saddles, const Monitor& monitor,
-                               const std::function<void(double)>& poll) {
+                               std::span<const SaddlePoint> saddles, const Monitor& monitor) {
   VertexFinder finder(facets, tree, pyramids, intervals, membership, monitor);
-  finder.add_points(saddles, poll);
+  finder.add_points(saddles);
   return finder.finish();
 }
 

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -39,10 +38,9 @@ struct RegionVertices {
 
 /// The points at which intervals end, with those of their drawings that may be vertices. If the sum need not be closed,
 /// so are its saddle points and places where it may be as narrow as it can be. `tree` is over the boxes of the facets,
-/// whose tables get more planes and points. `poll` is called with the share that is done and may throw.
+/// whose tables get more planes and points. The monitor is told of kSumPhase.
 RegionVertices region_vertices(ConvolutionFacets& facets, const BoxTree& tree, FacetPyramids& pyramids,
                                const SurvivingIntervals& intervals, const SumMembership& membership,
-                               std::span<const SaddlePoint> saddles, const Monitor& monitor,
-                               const std::function<void(double)>& poll);
+                               std::span<const SaddlePoint> saddles, const Monitor& monitor);
 
 }  // namespace nef::minkowski

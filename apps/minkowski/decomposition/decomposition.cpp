@@ -73,9 +73,7 @@ namespace {
 // hull) and what belongs to each facet of the hull is convex: of two points not in a common facet,
 // all between them is inside.
 bool is_convex_set(const Polyhedron& a, const Monitor& monitor) {
-  const Complex& c = a.complex();
-  std::vector<Rational3> points;
-  for (const VertexId v : c.vertex_ids()) points.push_back(c.points.rational(point_of(v)));
+  const std::vector<Rational3> points = a.complex().points.rationals();
   if (points.empty()) return true;
   const ConvexCell hull = hull_cell(points, monitor);
   if (!subtract(to_polyhedron(opened(hull), monitor), a, monitor).is_empty()) return false;

@@ -9,10 +9,6 @@ int oriented_sign(const Complex& complex, PlaneId plane, std::size_t axis) {
   return plane.flipped() ? -sign : sign;
 }
 
-Direction axis_direction(std::size_t axis) {
-  return Direction::exact(axis == 0 ? 1 : 0, axis == 1 ? 1 : 0, axis == 2 ? 1 : 0);
-}
-
 // Which of the directions -axis, +axis lie inside the wedge that begins at shalfedge `first` and
 // takes more than a half-turn to `second`. The rest, from `second` on to `first`, is less than a
 // half-turn: it is where the form of second's plane is >= 0 and that of first's is <= 0.
@@ -27,7 +23,7 @@ std::array<bool, 2> inside_wedge(const Complex& complex, const Direction& d, Pla
     } else if (oriented_sign(complex, first, axis) == 0) {
       // One facet only, and parallel to the axis: it leaves the edge along n x d.
       inside[i] =
-          way * sign_of_determinant(axis_direction(axis), Direction::normal(complex.planes, first), d, monitor) < 0;
+          way * sign_of_determinant(along_axis(axis, 1), Direction::normal(complex.planes, first), d, monitor) < 0;
     }
   }
   return inside;
@@ -47,6 +43,10 @@ CrossWall prolonging(const Complex& complex, const Direction& d, PlaneId plane, 
 }
 
 }  // namespace
+
+Direction along_axis(std::size_t axis, int way) {
+  return Direction::exact(axis == 0 ? way : 0, axis == 1 ? way : 0, axis == 2 ? way : 0);
+}
 
 std::size_t cross_axis(const Complex& complex, PlaneId plane, std::size_t axis) {
   const std::size_t x = (axis + 1) % 3;
@@ -108,8 +108,8 @@ std::vector<VertexId> lonely_vertices(const Complex& complex) {
 Direction cut_direction(const Complex& complex, PlaneId plane) {
   // n x z lies in the plane; n x y if the plane is horizontal.
   const Direction n = Direction::normal(complex.planes, PlaneId(plane.row() * 2U));
-  const Direction g = Direction::cross(n, axis_direction(2));
-  return g.is_zero() ? Direction::cross(n, axis_direction(1)) : g;
+  const Direction g = Direction::cross(n, along_axis(2, 1));
+  return g.is_zero() ? Direction::cross(n, along_axis(1, 1)) : g;
 }
 
 std::vector<ReflexCorner> reflex_corners(const Complex& complex, FacetId facet, const Monitor& monitor) {

@@ -31,6 +31,9 @@ struct ReflexEdge {
   std::array<CrossWall, 2> cross_wall;  ///< if vertical: either one will do
 };
 
+/// The direction of a coordinate axis, or against it if `way` is -1.
+Direction along_axis(std::size_t axis, int way);
+
 /// The coordinate along which a wall in an upright plane is swept: the one after `axis` in the order x, y, z, x; or
 /// the next if that is constant in the plane.
 std::size_t cross_axis(const Complex& complex, PlaneId plane, std::size_t axis);

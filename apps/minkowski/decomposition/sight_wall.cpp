@@ -110,7 +110,7 @@ void WallBuilder::erect_sight_wall(const Rational3& from, const Rational3& to, b
 
   Box query;
   for (const Rational3* p : {&from, &to}) {
-    query.add_rounded({nearest_double((*p)[0]), nearest_double((*p)[1]), nearest_double((*p)[2])});
+    query.add_rounded(nearest_doubles(*p));
   }
   (upwards ? query.high : query.low)[frame.h] = (upwards ? 1 : -1) * std::numeric_limits<double>::infinity();
   slicer_.begin(frame);

@@ -26,10 +26,6 @@
 namespace nef::minkowski {
 namespace {
 
-Direction along(std::size_t axis, int way) {
-  return Direction::exact(axis == 0 ? way : 0, axis == 1 ? way : 0, axis == 2 ? way : 0);
-}
-
 struct WallFoot {
   std::array<std::array<double, 3>, 2> end{};
   // Its box, from there on along the axis in direction `way`.
@@ -93,7 +89,7 @@ class CellEstimate {
   void add_end(const Corner& corner, const Direction& d) {
     const auto [at, is_new] = ends_.try_emplace(corner);
     if (is_new) {
-      const auto place = locate(c_.planes, c_.sphere_map(corner.first), along(axis_, corner.second), monitor_);
+      const auto place = locate(c_.planes, c_.sphere_map(corner.first), along_axis(axis_, corner.second), monitor_);
       at->second.inside = place.kind == SphereLocation::Kind::kSFace;
     }
     if (at->second.inside) at->second.walls.push_back(d);
@@ -106,7 +102,7 @@ class CellEstimate {
   }
 
   [[nodiscard]] std::size_t gaps() const {
-    const Direction e = along(axis_, 1);
+    const Direction e = along_axis(axis_, 1);
     std::size_t count = 0;
     for (const auto& [corner, ends] : ends_) {
       // A gap follows a wall if all others are less than a half-turn before it.

@@ -10,13 +10,6 @@
 namespace nef::minkowski {
 namespace {
 
-std::vector<Rational3> vertices_of(const Polyhedron& a) {
-  const Complex& c = a.complex();
-  std::vector<Rational3> points;
-  for (const VertexId v : c.vertex_ids()) points.push_back(c.points.rational(point_of(v)));
-  return points;
-}
-
 // The proper faces of largest dimension of a convex cell, as the points that span them.
 std::vector<std::vector<Rational3>> facets_of(const ConvexCell& cell) {
   const std::vector<Rational3>& v = cell.mesh.vertices;
@@ -53,8 +46,7 @@ Polyhedron hull(const Polyhedron& a, const Monitor& monitor) {
   if (a.is_empty()) return a;
   if (is_cobounded(a)) return Polyhedron::everything();
   if (!a.is_bounded()) return unbounded_hull(a, monitor);
-  const std::vector<Rational3> points = vertices_of(a);
-  const ConvexCell cell = hull_cell(points, monitor);
+  const ConvexCell cell = hull_cell(a.complex().points.rationals(), monitor);
   if (cell.dimension == 0 || a.is_closed()) return to_polyhedron(cell, monitor);
   if (cell.dimension == 3 && a.is_open()) return to_polyhedron(opened(cell), monitor);
   std::vector<Polyhedron> parts = {to_polyhedron(opened(cell), monitor)};
@@ -66,7 +58,7 @@ Polyhedron hull(const Polyhedron& a, const Monitor& monitor) {
 
 std::optional<Rational> excess_of_hull(const Polyhedron& a, const Monitor& monitor) {
   if (!a.is_bounded() || a.is_empty()) return std::nullopt;
-  const Polyhedron around = to_polyhedron(hull_cell(vertices_of(a), monitor), monitor);
+  const Polyhedron around = to_polyhedron(hull_cell(a.complex().points.rationals(), monitor), monitor);
   // Most sets are far from convex, which takes no exact volumes.
   const MeasuredVolume about = approximate_volume(a, monitor);
   const MeasuredVolume about_hull = approximate_volume(around, monitor);

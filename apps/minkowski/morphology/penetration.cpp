@@ -8,7 +8,7 @@
 #include "apps/minkowski/convolution/nearest_outside.h"
 #include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/morphology.h"
-#include "apps/minkowski/sum/work_progress.h"
+#include "apps/minkowski/part_of_sum.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/phase_timer.h"
 #include "nef/base/timing/stopwatch.h"
@@ -75,10 +75,8 @@ Candidate way_out(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptio
   if (options.strategy == UnionStrategy::kAuto) {
     const Stopwatch watch;
     const PhaseTimer phase(report.seconds_union, report.predicates_union, options.monitor);
-    OutsideOptions how;
-    how.poll = WorkProgress(options);
-    how.monitor = phase.monitor();
-    std::optional<NearestOutside> found = nearest_outside(a, b, how, why);
+    const PartOfSum whole(phase.monitor());
+    std::optional<NearestOutside> found = nearest_outside(a, b, why, whole.monitor());
     report.seconds_total += watch.seconds();
     if (found) {
       report.convolution_facets += found->facets;

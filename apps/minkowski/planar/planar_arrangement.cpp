@@ -18,8 +18,7 @@ namespace {
 
 Box box_around(const Rational3& a, const Rational3& b) {
   Box box;
-  for (const Rational3* p : {&a, &b})
-    box.add_rounded({nearest_double((*p)[0]), nearest_double((*p)[1]), nearest_double((*p)[2])});
+  for (const Rational3* p : {&a, &b}) box.add_rounded(nearest_doubles(*p));
   return box;
 }
 

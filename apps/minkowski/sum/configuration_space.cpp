@@ -10,7 +10,7 @@
 
 #include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/decomposition/wall_axis.h"
-#include "apps/minkowski/minkowski.h"
+#include "apps/minkowski/part_of_sum.h"
 #include "apps/minkowski/sum/pair_sums.h"
 #include "apps/minkowski/sum/strategy_choice.h"
 #include "nef/base/error.h"
@@ -61,16 +61,6 @@ struct WithoutCells {
   std::string why_others;
 };
 
-// Options under which one of several equal parts of the work tells its progress as that of all.
-MinkowskiOptions part_of(const MinkowskiOptions& options, std::size_t part, std::size_t parts) {
-  MinkowskiOptions result = options;
-  if (!options.progress) return result;
-  result.progress = [outer = options.progress, part, parts](std::size_t done, std::size_t all) {
-    return outer((1000 * part + 1000 * done / all) / parts, 1000);
-  };
-  return result;
-}
-
 // Measured: cells of small obstacles, all in one union, are faster than as many sums. Sets of few vertices have few
 // cells.
 constexpr std::size_t kFewPairs = 100;
@@ -85,6 +75,7 @@ WithoutCells sums_without_cells(const Polyhedron& robot, std::span<const Polyhed
   const Monitor& monitor = options.monitor;
   const Polyhedron robot_inside = interior(negate(robot, monitor), monitor);
   if (robot_inside.is_empty()) return result;
+  const auto parts = static_cast<double>(obstacles.size() + 1);  // the last one: what needs cells
   const std::size_t robot_cells = insist ? 0 : estimated_cells(robot_inside.complex(), monitor);
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     const Polyhedron closed = closure(obstacles[i], monitor);
@@ -94,8 +85,9 @@ WithoutCells sums_without_cells(const Polyhedron& robot, std::span<const Polyhed
     const std::size_t cells = insist ? 0 : estimated_cells(closed.complex(), monitor);
     if (!insist && (cells < 2 || cells * robot_cells < kFewPairs)) continue;
     std::string why;
+    const PartOfSum part(monitor, static_cast<double>(i) / parts, static_cast<double>(i + 1) / parts);
     std::optional<Polyhedron> sum =
-        sum_by_convolution(closed, robot_inside, part_of(options, i, obstacles.size() + 1), report, why);
+        sum_by_convolution(closed, robot_inside, {options.strategy, part.monitor()}, report, why);
     if (sum) {
       report.choices.push_back({"convolution", std::move(why)});
       result.sums.push_back(*std::move(sum));
@@ -182,8 +174,10 @@ Polyhedron configuration_space(const Polyhedron& robot, std::span<const Polyhedr
   const bool any =
       std::any_of(products.begin(), products.end(), [](const Product& p) { return p.a.size() * p.b.size() > 0; });
   if (any) {
-    const MinkowskiOptions last = part_of(options, obstacles.size(), obstacles.size() + 1);
-    without_cells.sums.push_back(union_of_pair_sums_for(std::move(without_cells.why_others), products, last, r));
+    const auto before = static_cast<double>(obstacles.size());
+    const PartOfSum last(options.monitor, before / (before + 1));
+    without_cells.sums.push_back(
+        union_of_pair_sums_for(std::move(without_cells.why_others), products, {options.strategy, last.monitor()}, r));
   }
   Polyhedron free;
   {

@@ -85,8 +85,7 @@ bool FixedObstacles::matters(const Box& a, const Box& b) const {
 }
 
 Polyhedron FixedObstacles::free_positions(std::span<const Mesh> robot, const Monitor& monitor) const {
-  const auto poll = [&monitor](double) { monitor.check_interruption(); };
-  UnionBuilder forbidden(0, poll, monitor);
+  UnionBuilder forbidden(0, monitor.quiet());
   const Operand pieces(reflected(robot, may_touch_));
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     const Box box = box_of(pieces.cell(i).mesh);

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "apps/minkowski/sum/work_progress.h"
+#include "apps/minkowski/part_of_sum.h"
 #include "apps/minkowski/union/union_builder.h"
 #include "nef/base/error.h"
 #include "nef/base/threads/parallel.h"
@@ -48,34 +48,22 @@ Polyhedron union_of_pair_sums(std::span<const Product> products, const Minkowski
   std::size_t all = 0;
   for (const Product& product : products) all += product.a.size() * product.b.size();
   report.pairs += all;
-  const WorkProgress progress(options);
-  std::size_t summed = 0;
-  double united = 0;  // share
-  // Measured: the union takes about four fifths of the time.
-  const auto poll = [&] { progress(0.2 * static_cast<double>(summed) / static_cast<double>(all) + 0.8 * united); };
-  const auto poll_union = [&](double share) {
-    united = share;
-    poll();
-  };
+  const PartOfSum whole(options.monitor);
   double seconds = 0;  // of the sums of pairs, too; seconds_union gets those of the union only
-  const PhaseTimer union_phase(seconds, report.predicates_union, options.monitor);
-  UnionBuilder builder(all, poll_union, union_phase.monitor());
+  const PhaseTimer union_phase(seconds, report.predicates_union, whole.monitor());
+  UnionBuilder builder(all, union_phase.monitor());
   for (const Product& product : products) {
     const std::size_t pairs = product.a.size() * product.b.size();
     for (std::size_t first = 0; first < pairs; first += kBlock) {
       std::vector<ConvexCell> sums = sums_of_pairs(product, first, std::min(kBlock, pairs - first), options, report);
       const Stopwatch watch;
-      for (ConvexCell& sum : sums) {  // in order, whoever made them
-        builder.add(std::move(sum));
-        ++summed;
-        poll();
-      }
+      for (ConvexCell& sum : sums) builder.add(std::move(sum));  // in order, whoever made them
       report.seconds_union += watch.seconds();
     }
   }
   const Stopwatch watch;
   Polyhedron result = builder.finish();
-  progress(1);
+  whole.monitor().tell_progress(kSumPhase, 1, 1);
   report.seconds_union += watch.seconds();
   report.pairs_dropped += builder.dropped();
   report.united_at_once += builder.united_at_once();

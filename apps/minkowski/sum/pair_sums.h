@@ -37,7 +37,7 @@ struct Product {
 };
 
 /// The union of the sums of all pairs of some products. In blocks, so that memory does not grow with the pairs. Adds to
-/// the report. Throws Interrupted if the progress function says so.
+/// the report.
 Polyhedron union_of_pair_sums(std::span<const Product> products, const MinkowskiOptions& options,
                               MinkowskiReport& report);
 

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "apps/minkowski/convolution/convolution_sum.h"
+#include "apps/minkowski/part_of_sum.h"
 #include "apps/minkowski/planar/flat_sets.h"
-#include "apps/minkowski/sum/work_progress.h"
 #include "nef/base/timing/phase_timer.h"
 #include "nef/polyhedron.h"
 
@@ -35,12 +35,9 @@ std::optional<Polyhedron> sum_by_convolution(const Polyhedron& a, const Polyhedr
     why = std::string(set == &a ? "A" : "B") + " has parts that are not solid; then both must be closed, and one solid";
     return std::nullopt;
   }
-  ConvolutionOptions how;
-  how.only_if_fast = !insist;
-  how.poll = WorkProgress(options);
-  how.monitor = phase.monitor();
+  const PartOfSum whole(phase.monitor());
   ConvolutionReport counts;
-  std::optional<Polyhedron> sum = convolution_sum(a, b, how, counts);
+  std::optional<Polyhedron> sum = convolution_sum(a, b, !insist, counts, whole.monitor());
   if (!sum || !insist) why = counts.why;
   report.convolution_facets += counts.facets;
   report.convolution_intervals += counts.intervals;

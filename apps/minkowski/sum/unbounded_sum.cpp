@@ -13,7 +13,7 @@
 #include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/decomposition/reflex.h"
 #include "apps/minkowski/decomposition/walls.h"
-#include "apps/minkowski/sum/work_progress.h"
+#include "apps/minkowski/part_of_sum.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/phase_timer.h"
 #include "nef/construct/construct.h"
@@ -244,20 +244,20 @@ Polyhedron unbounded_sum(const Polyhedron& a, const Polyhedron& b, const Minkows
   }
   report.pairs += pairs;
   std::vector<Polyhedron> sums(pairs);
-  const WorkProgress progress(options);
+  const PartOfSum whole(options.monitor);
   std::size_t done = 0;
   {
     const PhaseTimer phase(report.seconds_convex_sums, report.predicates_convex_sums, options.monitor);
     for (const SpannedSet& c : cells_a) {
       for (const SpannedSet& d : cells_b) {
         sums[done++] = to_polyhedron(sum_of(c, d), parts == Parts::kClosedSolids, phase.monitor());
-        progress(static_cast<double>(done) / static_cast<double>(2 * pairs));
+        whole.monitor().tell_progress(kSumPhase, done, 2 * pairs);
       }
     }
   }
   const PhaseTimer phase(report.seconds_union, report.predicates_union, options.monitor);
   Polyhedron result = unite_all(sums, phase.monitor());
-  progress(1);
+  whole.monitor().tell_progress(kSumPhase, 1, 1);
   return result;
 }
 

@@ -14,8 +14,10 @@
 #include "apps/minkowski/union/solid_union.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "apps/minkowski/cells/segment.h"
+#include "apps/minkowski/part_of_sum.h"
 #include "apps/minkowski/union/coplanar.h"
 #include "apps/minkowski/union/face_chord.h"
 #include "apps/minkowski/union/repeated_cells.h"
@@ -29,17 +31,18 @@ namespace {
 
 class SolidUnion {
  public:
-  SolidUnion(std::span<const ConvexCell> cells, const RoundedCells& rounded, const SolidUnionOptions& options)
+  SolidUnion(std::span<const ConvexCell> cells, const RoundedCells& rounded, std::uint64_t budget,
+             const Monitor& monitor)
       : cells_(cells),
         rounded_(rounded),
         boxes_(rounded.boxes(), BoxSplit::kMedians),
-        vertices_(cells, rounded, boxes_, options.monitor),
+        vertices_(cells, rounded, boxes_, monitor),
         exact_(vertices_.exact()),
         cutter_(rounded, exact_),
-        visible_(visible_faces(cells, rounded, boxes_, exact_, options.monitor)),
+        visible_(visible_faces(cells, rounded, boxes_, exact_, monitor)),
         tree_(visible_.boxes, BoxSplit::kMedians),
-        budget_(options.budget),
-        poll_(options.poll) {
+        budget_(budget),
+        monitor_(monitor) {
     for (std::uint32_t c = 0; c < rounded.size(); ++c) apart_.push_back(rounded.first_face(c));
     segment_apart_ = apart_;
   }
@@ -49,7 +52,7 @@ class SolidUnion {
   // All candidates; false if the budget did not suffice.
   bool search() {
     for (std::uint32_t i = 0; i < visible_.faces.size(); ++i) {
-      if (poll_) poll_(static_cast<double>(i) / static_cast<double>(visible_.faces.size()));
+      monitor_.tell_progress(kSumPhase, i, visible_.faces.size());
       search_face(i);
       if (exhausted()) return false;
     }
@@ -302,7 +305,7 @@ class SolidUnion {
   VisibleFaces visible_;
   BoxTree tree_;  // over the boxes of visible faces
   std::uint64_t budget_;
-  const std::function<void(double)>& poll_;
+  Monitor monitor_;
   std::uint64_t work_ = 0;
 
   // Scratch.
@@ -317,9 +320,9 @@ class SolidUnion {
 };
 
 std::optional<Polyhedron> unite_different(std::span<const ConvexCell> cells, const RoundedCells& rounded,
-                                          const SolidUnionOptions& options, std::size_t& dropped) {
-  if (cells.size() == 1) return to_polyhedron(cells[0], options.monitor);
-  SolidUnion search(cells, rounded, options);
+                                          std::uint64_t budget, std::size_t& dropped, const Monitor& monitor) {
+  if (cells.size() == 1) return to_polyhedron(cells[0], monitor);
+  SolidUnion search(cells, rounded, budget, monitor);
   if (!search.search()) return std::nullopt;
   dropped += search.hidden_cells();
   return Polyhedron(search.finish());
@@ -327,8 +330,8 @@ std::optional<Polyhedron> unite_different(std::span<const ConvexCell> cells, con
 
 }  // namespace
 
-std::optional<Polyhedron> try_unite_solids(std::span<const ConvexCell> cells, const SolidUnionOptions& options,
-                                           std::size_t* dropped) {
+std::optional<Polyhedron> try_unite_solids(std::span<const ConvexCell> cells, std::uint64_t budget,
+                                           std::size_t* dropped, const Monitor& monitor) {
   std::size_t unused = 0;
   std::size_t& count = dropped != nullptr ? *dropped : unused;
   if (cells.empty()) return Polyhedron();
@@ -336,22 +339,20 @@ std::optional<Polyhedron> try_unite_solids(std::span<const ConvexCell> cells, co
   if (!has_moderate_size(rounded.extent())) return std::nullopt;
   const std::vector<bool> repeated = repeated_cells(cells, rounded);
   const auto repeats = static_cast<std::size_t>(std::count(repeated.begin(), repeated.end(), true));
-  if (repeats == 0) return unite_different(cells, rounded, options, count);
+  if (repeats == 0) return unite_different(cells, rounded, budget, count, monitor);
   std::vector<ConvexCell> different;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (!repeated[i]) different.push_back(cells[i]);
   }
   std::size_t hidden = 0;
-  std::optional<Polyhedron> result = unite_different(different, RoundedCells(different), options, hidden);
+  std::optional<Polyhedron> result = unite_different(different, RoundedCells(different), budget, hidden, monitor);
   if (result) count += repeats + hidden;
   return result;
 }
 
 Polyhedron unite_solids(std::span<const ConvexCell> cells, std::size_t* dropped, const Monitor& monitor) {
-  SolidUnionOptions options;
-  options.monitor = monitor;
-  std::optional<Polyhedron> result = try_unite_solids(cells, options, dropped);
-  if (result) return *std::move(result);
+  constexpr std::uint64_t kAny = std::numeric_limits<std::uint64_t>::max();
+  if (std::optional<Polyhedron> result = try_unite_solids(cells, kAny, dropped, monitor)) return *std::move(result);
   std::vector<Polyhedron> sets;
   sets.reserve(cells.size());
   for (const ConvexCell& cell : cells) sets.push_back(to_polyhedron(cell, monitor));

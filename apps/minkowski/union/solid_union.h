@@ -6,8 +6,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <limits>
 #include <optional>
 #include <span>
 
@@ -17,23 +15,15 @@
 
 namespace nef::minkowski {
 
-/// How a union may be made, and what came of it.
-struct SolidUnionOptions {
-  /// The union is given up when it has taken so many evaluations of a plane's form (a few nanoseconds each). Counted,
-  /// not timed: the same for every run.
-  std::uint64_t budget = std::numeric_limits<std::uint64_t>::max();
-  std::function<void(double)> poll;  ///< if given, called for each face that is left, with the share done; may throw
-  Monitor monitor = {};              ///< who watches; what it refers to must outlive the call
-};
-
-/// The union of convex cells of dimension 3, with their marks; nothing if the budget did not suffice, or the size of
-/// all is not between 2^-200 and 2^200 (has_moderate_size). Facets inside of other cells, or of the union of facets in
-/// their plane, are dropped by filters before anything exact exists, so the time goes with what is left: O(n log n + m
-/// k) for n faces, m of them not hidden, each of which k others meet. Where many faces nearly coincide, m and k are n,
-/// and candidates are their triples: that is what the budget is for. Adds the number of cells that lie inside of others
-/// to `dropped` if it is given.
-std::optional<Polyhedron> try_unite_solids(std::span<const ConvexCell> cells, const SolidUnionOptions& options,
-                                           std::size_t* dropped = nullptr);
+/// The union of convex cells of dimension 3, with their marks; nothing if it took more than `budget` evaluations of a
+/// plane's form (a few nanoseconds each; counted, not timed: the same for every run), or the size of all is not between
+/// 2^-200 and 2^200 (has_moderate_size). Facets inside of other cells, or of the union of facets in their plane, are
+/// dropped by filters before anything exact exists, so the time goes with what is left: O(n log n + m k) for n faces, m
+/// of them not hidden, each of which k others meet. Where many faces nearly coincide, m and k are n, and candidates are
+/// their triples: that is what the budget is for. Adds the number of cells that lie inside of others to `dropped` if it
+/// is given. Tells of kSumPhase by the faces that are left.
+std::optional<Polyhedron> try_unite_solids(std::span<const ConvexCell> cells, std::uint64_t budget,
+                                           std::size_t* dropped, const Monitor& monitor);
 
 /// The same without a budget; of other sizes by unions of two.
 Polyhedron unite_solids(std::span<const ConvexCell> cells, std::size_t* dropped = nullptr, const Monitor& monitor = {});

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "apps/minkowski/part_of_sum.h"
 #include "apps/minkowski/union/containment.h"
 #include "apps/minkowski/union/solid_union.h"
 
@@ -29,20 +30,29 @@ constexpr std::uint64_t kQueueWorkOfVertex = 4000;
 
 }  // namespace
 
-UnionBuilder::UnionBuilder(std::size_t expected, std::function<void(double)> poll, const Monitor& monitor)
-    : poll_(std::move(poll)), monitor_(monitor), expected_(std::max(1.0, static_cast<double>(expected))) {}
+UnionBuilder::UnionBuilder(std::size_t expected, const Monitor& monitor)
+    : monitor_(monitor), expected_(std::max<std::size_t>(expected, 1)) {}
 
-void UnionBuilder::settle(double pieces) {
+void UnionBuilder::settle(std::size_t pieces) {
   settled_ += pieces;
-  poll();
+  tell();
 }
 
-// With pieces of a batch that is being united.
-void UnionBuilder::poll(double more) {
-  if (poll_) poll_(std::min(1.0, (settled_ + more) / expected_));
+// The share of the work that is done when `more` pieces are united. Measured: the union takes about four fifths of the
+// time of a sum, and making its pieces one.
+double UnionBuilder::done(std::size_t more) const {
+  const double made = 0.2 * static_cast<double>(added_) + 0.8 * static_cast<double>(settled_ + more);
+  return std::min(1.0, made / static_cast<double>(expected_));
+}
+
+void UnionBuilder::tell() const {
+  constexpr double kParts = 1e6;
+  monitor_.tell_progress(kSumPhase, static_cast<std::size_t>(done() * kParts), static_cast<std::size_t>(kParts));
 }
 
 void UnionBuilder::add(ConvexCell cell) {
+  ++added_;
+  tell();
   if (gave_up_ || cell.mesh.vertices.size() > kLargeCell) {
     add_to_group(cell);
   } else {
@@ -66,9 +76,8 @@ void UnionBuilder::add_to_group(const ConvexCell& cell) {
 
 void UnionBuilder::flush_group() {
   if (group_.empty()) return;
-  poll();
   add_queued(unite_all(group_, monitor_));
-  settle(static_cast<double>(group_.size()));
+  settle(group_.size());
   group_.clear();
   group_vertices_ = 0;
 }
@@ -98,7 +107,7 @@ void UnionBuilder::flush() {
     dropped_ += static_cast<std::size_t>(batch_.end() - first_flat) - pieces.size();
     two_by_two_ += pieces.size();
     add_queued(unite_all(pieces, monitor_));
-    settle(static_cast<double>(batch_.end() - first_flat));
+    settle(static_cast<std::size_t>(batch_.end() - first_flat));
     batch_.erase(first_flat, batch_.end());
   }
   if (!batch_.empty()) unite_batch_of_solids();
@@ -107,16 +116,13 @@ void UnionBuilder::flush() {
 }
 
 void UnionBuilder::unite_batch_of_solids() {
-  SolidUnionOptions options;
-  options.monitor = monitor_;
-  const auto all = static_cast<double>(batch_.size());
-  options.poll = [this, all](double share) { poll(share * all); };
-  options.budget = kQueueWorkOfVertex * batch_vertices_;
-  std::optional<Polyhedron> sum = try_unite_solids(batch_, options, &dropped_);
+  const PartOfSum part(monitor_, done(), done(batch_.size()));
+  std::optional<Polyhedron> sum =
+      try_unite_solids(batch_, kQueueWorkOfVertex * batch_vertices_, &dropped_, part.monitor());
   if (sum) {
     at_once_ += batch_.size();
     add_queued(*std::move(sum));
-    settle(all);
+    settle(batch_.size());
   } else {
     gave_up_ = true;
     for (const ConvexCell& cell : batch_) add_to_group(cell);

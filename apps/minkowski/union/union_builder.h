@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <utility>
 #include <vector>
 
@@ -21,9 +20,9 @@ namespace nef::minkowski {
 /// the better of the two.
 class UnionBuilder {
  public:
-  /// Adds up to `expected` pieces. `poll`, if given, is called now and then while they are united, with the share of
-  /// that work that is done, which is an estimate. It may throw.
-  explicit UnionBuilder(std::size_t expected = 0, std::function<void(double)> poll = {}, const Monitor& monitor = {});
+  /// Takes up to `expected` pieces. The monitor is told how much of the sum that they come from is done (kSumPhase),
+  /// which is an estimate.
+  explicit UnionBuilder(std::size_t expected, const Monitor& monitor);
 
   void add(ConvexCell cell);
   /// The union of everything added. Call once.
@@ -36,8 +35,9 @@ class UnionBuilder {
   [[nodiscard]] std::size_t united_two_by_two() const { return two_by_two_; }
 
  private:
-  void settle(double pieces);
-  void poll(double more = 0);
+  void settle(std::size_t pieces);
+  [[nodiscard]] double done(std::size_t more = 0) const;
+  void tell() const;
   void add_to_batch(ConvexCell cell);
   void add_queued(Polyhedron piece);
   void add_to_group(const ConvexCell& cell);
@@ -45,10 +45,10 @@ class UnionBuilder {
   void flush();
   void unite_batch_of_solids();
 
-  std::function<void(double)> poll_;
   Monitor monitor_;
-  double expected_ = 1;             // pieces
-  double settled_ = 0;              // pieces by which the work is done
+  std::size_t expected_;  // pieces
+  std::size_t added_ = 0;
+  std::size_t settled_ = 0;         // those whose work is done
   std::vector<Polyhedron> levels_;  // level i is empty or the union of 2^i pieces
   std::vector<Polyhedron> group_;   // the next pieces for the queue
   std::size_t group_vertices_ = 0;

@@ -71,20 +71,10 @@ std::vector<std::size_t> obstacles_near(const Scene& scene, std::size_t index) {
 
 }  // namespace
 
-minkowski::MinkowskiOptions sum_options(const Monitor& monitor) {
-  minkowski::MinkowskiOptions options;
-  options.progress = [monitor](std::size_t done, std::size_t total) {
-    monitor.tell_progress("configuration space", done, total);
-    return true;
-  };
-  options.monitor = monitor.quiet();
-  return options;
-}
-
 Polyhedron free_positions(const Scene& scene, const Monitor& monitor) {
   require_no_rotation(scene);
-  const minkowski::MinkowskiOptions options = sum_options(monitor);
-  const Monitor& quiet = options.monitor;
+  const minkowski::MinkowskiOptions options{.monitor = monitor};
+  const Monitor quiet = monitor.quiet();
   std::vector<Polyhedron> obstacles;
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
     obstacles.push_back(reachable_part(scene.obstacles[i], scene, quiet,

@@ -17,9 +17,6 @@ namespace nef::planner {
 /// a robot that turns: reset the rotation of a copy to ask about one orientation.
 Polyhedron free_positions(const Scene& scene, const Monitor& monitor = {});
 
-/// How the sums of a configuration space are made: `monitor` is told of that one phase, and of nothing within it.
-minkowski::MinkowskiOptions sum_options(const Monitor& monitor);
-
 /// An obstacle came, went, or became another set.
 struct ObstacleChange {
   std::optional<std::size_t> index = std::nullopt;    ///< of the one that went or changed; one that comes is the last

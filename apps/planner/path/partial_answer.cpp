@@ -28,8 +28,8 @@ bool is_of_solids(const Scene& scene) {
 }  // namespace
 
 Polyhedron interior_positions(const Scene& scene, const Monitor& watching) {
-  const minkowski::MinkowskiOptions options = sum_options(watching);
-  const Monitor& monitor = options.monitor;
+  const minkowski::MinkowskiOptions options{.monitor = watching};
+  const Monitor monitor = watching.quiet();
   const Polyhedron reflected = minkowski::negate(scene.robot, monitor);
   std::vector<Polyhedron> sums;
   for (const Polyhedron& obstacle : scene.obstacles) {

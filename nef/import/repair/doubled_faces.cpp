@@ -17,6 +17,7 @@
 
 #include "nef/base/union_find.h"
 #include "nef/mesh/edge_order.h"
+#include "nef/mesh/mesh.h"
 
 namespace nef {
 namespace {
@@ -91,12 +92,9 @@ class Copies {
     UnionFind components(rings_.size());
     std::unordered_map<std::uint64_t, std::uint32_t> face_at;  // a face at each side
     for (std::uint32_t f = 0; f < rings_.size(); ++f) {
-      const Ring& ring = rings_[f];
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        const std::uint32_t u = ring[i];
-        const std::uint32_t v = ring[(i + 1) % ring.size()];
-        components.unite(face_at.emplace(pair_key(std::min(u, v), std::max(u, v)), f).first->second, f);
-      }
+      for_each_side(rings_[f], [&](std::uint32_t u, std::uint32_t v) {
+        components.unite(face_at.emplace(edge_key(u, v), f).first->second, f);
+      });
     }
     std::vector<bool> encloses(rings_.size(), false);
     for (std::uint32_t f = 0; f < rings_.size(); ++f) {
@@ -149,17 +147,14 @@ class Copies {
       const std::uint32_t p = place_of_[f];
       if (seen[p]) continue;
       seen[p] = true;
-      const Ring& ring = rings_[f];
-      for (std::size_t i = 0; i < ring.size(); ++i) {
-        const std::uint32_t u = ring[i];
-        const std::uint32_t v = ring[(i + 1) % ring.size()];
-        Side& side = sides_[pair_key(std::min(u, v), std::max(u, v))];
+      for_each_side(rings_[f], [&](std::uint32_t u, std::uint32_t v) {
+        Side& side = sides_[edge_key(u, v)];
         if (is_doubled(p)) {
           side.doubled.push_back(p);
         } else {
           side.single += places_[p].faces;
         }
-      }
+      });
     }
   }
 

@@ -2,18 +2,15 @@
 #include "nef/import/repair/face_fates.h"
 
 #include "nef/construct/construct.h"
+#include "nef/geometry/vectors.h"
 #include "nef/mesh/mesh_piece.h"
 #include "nef/mesh/surface/mesh_surface.h"
 
 namespace nef {
 namespace {
 
-Rational3 middle(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
-  Rational3 result;
-  for (const std::uint32_t v : triangle) {
-    for (std::size_t i = 0; i < 3; ++i) result[i] += mesh.vertices[v][i] / 3;
-  }
-  return result;
+Rational3 middle(const Mesh& mesh, const std::array<std::uint32_t, 3>& t) {
+  return mean_of<Rational>(std::array{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]});
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "nef/geometry/vectors.h"
 #include "nef/mesh/mesh.h"
 #include "nef/mesh/surface/mesh_surface.h"
 
@@ -24,7 +25,6 @@ namespace nef {
 namespace {
 
 using Ring = std::vector<std::uint32_t>;
-using Point = std::array<double, 3>;
 
 constexpr std::size_t kLongLoop = 400;
 
@@ -32,11 +32,9 @@ constexpr std::size_t kLongLoop = 400;
 std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance_of_sides(const std::vector<Ring>& rings) {
   std::vector<std::pair<std::pair<std::uint32_t, std::uint32_t>, int>> uses;
   for (const Ring& ring : rings) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const std::uint32_t u = ring[i];
-      const std::uint32_t v = ring[(i + 1) % ring.size()];
+    for_each_side(ring, [&](std::uint32_t u, std::uint32_t v) {
       if (u != v) uses.push_back({std::minmax(u, v), u < v ? 1 : -1});
-    }
+    });
   }
   std::sort(uses.begin(), uses.end());
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> open;
@@ -50,10 +48,9 @@ std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance_of_sides(const st
   return open;
 }
 
-double area(const Point& a, const Point& b, const Point& c) {
-  const Point u{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  const Point v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-  return std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2;
+double area(const Double3& a, const Double3& b, const Double3& c) {
+  const Double3 n = cross(minus(b, a), minus(c, a));
+  return std::hypot(n[0], n[1], n[2]) / 2;
 }
 
 // Corners of the vertices in doubles, so scaled that areas do not overflow if the coordinates are doubles.
@@ -67,8 +64,8 @@ class Corners {
     if (largest > 0) std::frexp(largest, &exponent_);
   }
 
-  [[nodiscard]] Point operator[](std::uint32_t v) const {
-    Point result{};
+  [[nodiscard]] Double3 operator[](std::uint32_t v) const {
+    Double3 result{};
     for (std::size_t i = 0; i < 3; ++i) result[i] = std::ldexp(nearest_double(vertices_[v][i]), -exponent_);
     return result;
   }
@@ -76,17 +73,11 @@ class Corners {
   // Of a polygon: half of the length of the sum of its triangles' normals. For faces that are not planar, less than
   // that of any triangulation.
   [[nodiscard]] double area_of(const Ring& ring) const {
-    Point sum{};
+    Double3 sum{};
     if (ring.empty()) return 0;
-    const Point a = (*this)[ring[0]];
+    const Double3 a = (*this)[ring[0]];
     for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
-      const Point b = (*this)[ring[i]];
-      const Point c = (*this)[ring[i + 1]];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::size_t l = (k + 1) % 3;
-        const std::size_t m = (k + 2) % 3;
-        sum[k] += (b[l] - a[l]) * (c[m] - a[m]) - (b[m] - a[m]) * (c[l] - a[l]);
-      }
+      sum = plus(sum, cross(minus((*this)[ring[i]], a), minus((*this)[ring[i + 1]], a)));
     }
     return std::hypot(sum[0], sum[1], sum[2]) / 2;
   }
@@ -189,7 +180,7 @@ class LoopTriangulation {
   }
 
   Ring loop_;
-  std::vector<Point> points_;
+  std::vector<Double3> points_;
   std::vector<Ring> triangles_;
 };
 

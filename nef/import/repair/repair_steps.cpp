@@ -30,11 +30,9 @@ using VertexPair = std::array<std::uint32_t, 2>;
 std::set<VertexPair> open_sides(const std::vector<Ring>& rings, OpenSides which) {
   std::map<VertexPair, int> uses;  // for kUnbalanced, those from the smaller place less the others
   for (const Ring& ring : rings) {
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const std::uint32_t from = ring[i];
-      const auto [u, v] = std::minmax(from, ring[(i + 1) % ring.size()]);
-      uses[{u, v}] += which == OpenSides::kUnbalanced && from != u ? -1 : 1;
-    }
+    for_each_side(ring, [&](std::uint32_t u, std::uint32_t v) {
+      uses[{std::min(u, v), std::max(u, v)}] += which == OpenSides::kUnbalanced && u > v ? -1 : 1;
+    });
   }
   std::set<VertexPair> open;
   for (const auto& [side, count] : uses) {
@@ -107,12 +105,7 @@ SideUses uses_of_sides(const std::vector<Ring>& rings, const std::vector<bool>& 
   SideUses uses;
   for (std::uint32_t f = 0; f < rings.size(); ++f) {
     if (left_out[f]) continue;
-    const Ring& ring = rings[f];
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const std::uint32_t u = ring[i];
-      const std::uint32_t v = ring[(i + 1) % ring.size()];
-      uses[pair_key(std::min(u, v), std::max(u, v))].push_back({f, u < v});
-    }
+    for_each_side(rings[f], [&](std::uint32_t u, std::uint32_t v) { uses[edge_key(u, v)].push_back({f, u < v}); });
   }
   return uses;
 }
@@ -213,15 +206,13 @@ void split_sides(MeshInRepair& mesh, OpenSides which, const Monitor& monitor) {
   std::size_t split = 0;
   for (Ring& ring : mesh.rings) {
     Ring longer;
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const std::uint32_t u = ring[i];
-      const std::uint32_t v = ring[(i + 1) % ring.size()];
+    for_each_side(ring, [&](std::uint32_t u, std::uint32_t v) {
       longer.push_back(u);
-      if (open.count({std::min(u, v), std::max(u, v)}) == 0) continue;
+      if (open.count({std::min(u, v), std::max(u, v)}) == 0) return;
       Ring inside = vertices_between(points, tree, border, {u, v}, monitor);
       split += inside.size();
       longer.insert(longer.end(), inside.begin(), inside.end());
-    }
+    });
     ring = std::move(longer);
   }
   mesh.note(split, "vertex", "vertices", "on the side of a face made a corner of it");
@@ -242,22 +233,19 @@ void turn_to_neighbours(MeshInRepair& mesh) {
     for (std::size_t i = 0; i < part.size(); ++i) {
       const std::uint32_t f = part[i];
       count += state[f] == State::kTurned ? 1 : 0;
-      const Ring& ring = mesh.rings[f];
-      for (std::size_t k = 0; k < ring.size(); ++k) {
-        const std::uint32_t u = ring[k];
-        const std::uint32_t v = ring[(k + 1) % ring.size()];
-        const std::vector<SideUse>& pair = uses.at(pair_key(std::min(u, v), std::max(u, v)));
-        if (pair.size() != 2 || pair[0].face == pair[1].face) continue;
+      for_each_side(mesh.rings[f], [&](std::uint32_t u, std::uint32_t v) {
+        const std::vector<SideUse>& pair = uses.at(edge_key(u, v));
+        if (pair.size() != 2 || pair[0].face == pair[1].face) return;
         const SideUse& other = pair[0].face == f ? pair[1] : pair[0];
         const bool alike = pair[0].forward == pair[1].forward;
         const State wanted = alike == (state[f] == State::kKept) ? State::kTurned : State::kKept;
         if (state[other.face] != State::kUnknown) {
           if (state[other.face] != wanted) mesh.one_sided = std::min(mesh.one_sided, mesh.sources[f]);
-          continue;
+          return;
         }
         state[other.face] = wanted;
         part.push_back(other.face);
-      }
+      });
     }
     const State to_turn = 2 * count > part.size() ? State::kKept : State::kTurned;
     for (const std::uint32_t f : part) {

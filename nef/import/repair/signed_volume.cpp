@@ -31,14 +31,10 @@ MeasuredVolume signed_volume(const Mesh& mesh, const Monitor& monitor) {
     from_first.push_back({around(vector[0]), around(vector[1]), around(vector[2])});
   }
   Interval six_volumes;
-  const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    six_volumes = six_volumes + dot(from_first[a], cross(from_first[b], from_first[c]));
-  };
-  for (const auto& t : surface.triangles) add(t[0], t[1], t[2]);
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-    if (surface.triangle_begin[f] != surface.triangle_begin[f + 1]) continue;
-    const auto ring = mesh.face(f);  // one that crosses itself, or without area: a fan
-    for (std::size_t i = 1; i + 1 < ring.size(); ++i) add(ring[0], ring[i], ring[i + 1]);
+    surface.for_each_triangle(mesh, f, [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      six_volumes += dot(from_first[a], cross(from_first[b], from_first[c]));
+    });
   }
   const Interval result = six_volumes / Interval(6);
   return {result.middle(), result.radius()};

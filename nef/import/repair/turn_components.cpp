@@ -147,12 +147,9 @@ std::vector<std::vector<std::uint32_t>> components_by_sides(const MeshInRepair& 
   UnionFind faces(mesh.rings.size());
   std::unordered_map<std::uint64_t, std::uint32_t> first;
   for (std::uint32_t f = 0; f < mesh.rings.size(); ++f) {
-    const std::vector<std::uint32_t>& ring = mesh.rings[f];
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const std::uint32_t u = ring[i];
-      const std::uint32_t v = ring[(i + 1) % ring.size()];
-      faces.unite(first.emplace(pair_key(std::min(u, v), std::max(u, v)), f).first->second, f);
-    }
+    for_each_side(mesh.rings[f], [&](std::uint32_t u, std::uint32_t v) {
+      faces.unite(first.emplace(edge_key(u, v), f).first->second, f);
+    });
   }
   std::map<std::uint32_t, std::vector<std::uint32_t>> by_root;
   for (std::uint32_t f = 0; f < mesh.rings.size(); ++f) by_root[faces.find(f)].push_back(f);

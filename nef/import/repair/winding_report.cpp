@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/import/repair/winding_report.h"
 
-#include <array>
-#include <cstdio>
 #include <cstdlib>
+
+#include "nef/number/brief_text.h"
 
 namespace nef {
 namespace {
 
-std::string short_number(double value) {
-  std::array<char, 32> text{};
-  static_cast<void>(std::snprintf(text.data(), text.size(), "%.3g", value));
-  return text.data();
-}
-
 // "3 parts (volume 0.01, 0.02 %) ", and the verb for them.
 std::string parts_text(const WindingVolume& entry, double total) {
   std::string text = std::to_string(entry.parts) + (entry.parts == 1 ? " part (volume " : " parts (volume ");
-  text += short_number(entry.measured.value);
-  if (total > 0) text += ", " + short_number(100 * entry.measured.value / total) + " %";
+  text += short_text(entry.measured.value, 3);
+  if (total > 0) text += ", " + short_text(100 * entry.measured.value / total, 3) + " %";
   return text + (entry.parts == 1 ? ") is" : ") are");
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "nef/geometry/plane_finder.h"
 #include "nef/io/cgal/cgal_nef3.h"
 #include "nef/io/text_cursor.h"
 #include "nef/polyhedron.h"
@@ -265,11 +266,8 @@ class Builder {
   }
 
   PlaneId plane_through(const Rational3& point, const Rational3& normal) {
-    if (normal[0] == 0 && normal[1] == 0 && normal[2] == 0) {
-      file_.fail(FileProblem::kSyntax, "the normal of a circle is zero");
-    }
-    const Rational offset = -(normal[0] * point[0] + normal[1] * point[1] + normal[2] * point[2]);
-    return planes_.intern(normal, offset);
+    if (is_zero(normal)) file_.fail(FileProblem::kSyntax, "the normal of a circle is zero");
+    return nef::plane_through(planes_, normal, point);
   }
 
   void intern_planes(const FileVertex& v) {
@@ -284,11 +282,11 @@ class Builder {
     }
     for (std::int64_t s = v.svertices; s < v.svertex_end; ++s) {
       // Two planes through the edge; simplification replaces them by those of facets where there are any.
-      const HomogeneousVector& d = file_.svertices[static_cast<std::size_t>(s)].direction;
-      const Rational3 n = d[0] == 0 && d[1] == 0 ? Rational3{1, 0, 0} : Rational3{Rational(-d[1]), d[0], Rational(0)};
-      const Rational3 m{d[1] * n[2] - d[2] * n[1], d[2] * n[0] - d[0] * n[2], d[0] * n[1] - d[1] * n[0]};
-      // n x m = d (n . n) - n (d . n) is a positive multiple of d.
-      line_planes_.push_back({plane_through(point, n), plane_through(point, m)});
+      const HomogeneousVector& h = file_.svertices[static_cast<std::size_t>(s)].direction;
+      const Rational3 d{h[0], h[1], h[2]};
+      const Rational3 n = across(d);
+      // With m = d x n, n x m = d (n . n) - n (d . n) is a positive multiple of d.
+      line_planes_.push_back({plane_through(point, n), plane_through(point, cross(d, n))});
     }
   }
 

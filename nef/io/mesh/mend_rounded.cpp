@@ -18,6 +18,7 @@
 #include "nef/base/error.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/export/nearest_float.h"
+#include "nef/geometry/vectors.h"
 #include "nef/import/try_from_mesh.h"
 #include "nef/io/number_text.h"
 #include "nef/io/text_cursor.h"
@@ -30,7 +31,6 @@
 namespace nef {
 namespace {
 
-using Point = std::array<double, 3>;
 using VertexTriple = std::array<std::uint32_t, 3>;
 
 constexpr int kRounds = 24;
@@ -141,7 +141,7 @@ class Mender {
   [[nodiscard]] std::vector<Rational3> read(const Reading& reading) const {
     std::vector<Rational3> vertices;
     vertices.reserve(points_.size());
-    for (const Point& p : points_) vertices.push_back({reading(p[0]), reading(p[1]), reading(p[2])});
+    for (const Double3& p : points_) vertices.push_back({reading(p[0]), reading(p[1]), reading(p[2])});
     return vertices;
   }
 
@@ -166,7 +166,7 @@ class Mender {
 
   // One vertex for each point, no triangles that come to one twice, none that lie back to back.
   void clean_up() {
-    std::map<Point, std::uint32_t> vertex_at;
+    std::map<Double3, std::uint32_t> vertex_at;
     std::vector<std::uint32_t> vertex(points_.size());
     for (std::uint32_t v = 0; v < points_.size(); ++v) vertex[v] = vertex_at.emplace(points_[v], v).first->second;
     struct Face {
@@ -203,9 +203,7 @@ class Mender {
   void mend(const Finding& found, int round) {
     neighbours_.clear();
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        neighbours_[pair_key(triangles_[t][i], triangles_[t][(i + 1) % 3])].push_back(t);
-      }
+      for_each_side(triangles_[t], [&](std::uint32_t u, std::uint32_t v) { neighbours_[pair_key(u, v)].push_back(t); });
     }
     touched_.assign(triangles_.size(), false);
     for (const std::uint32_t t : found.degenerate) {
@@ -218,9 +216,8 @@ class Mender {
   }
 
   [[nodiscard]] double squared_distance(std::uint32_t a, std::uint32_t b) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < 3; ++i) sum += (points_[a][i] - points_[b][i]) * (points_[a][i] - points_[b][i]);
-    return sum;
+    const Double3 d = minus(points_[a], points_[b]);
+    return dot(d, d);
   }
 
   // The side i of a triangle goes from corner i to the next.
@@ -231,16 +228,13 @@ class Mender {
   [[nodiscard]] bool is_thin(std::uint32_t t, int round) const {
     const VertexTriple& c = triangles_[t];
     double reach = 0;
-    Point u{};
-    Point v{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      u[i] = points_[c[1]][i] - points_[c[0]][i];
-      v[i] = points_[c[2]][i] - points_[c[0]][i];
-      for (const std::uint32_t corner : c) reach = std::max(reach, std::abs(points_[corner][i]));
+    for (const std::uint32_t corner : c) {
+      for (const double x : points_[corner]) reach = std::max(reach, std::abs(x));
     }
     const std::array<double, 3> sides = squared_sides(c);
     const double longest = std::sqrt(*std::max_element(sides.begin(), sides.end()));
-    const double area = std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+    const Double3 n = cross(minus(points_[c[1]], points_[c[0]]), minus(points_[c[2]], points_[c[0]]));
+    const double area = std::hypot(n[0], n[1], n[2]);
     const double unit = rounding_.next(reach, true) - reach;
     return area <= longest * unit * std::ldexp(2, round);
   }
@@ -321,8 +315,8 @@ class Mender {
   const Rounding& rounding_;
   Monitor monitor_;
   std::mt19937 random_;  // the same for the same mesh
-  std::vector<Point> points_;
-  std::vector<Point> nearest_;
+  std::vector<Double3> points_;
+  std::vector<Double3> nearest_;
   std::vector<VertexTriple> triangles_;
   std::vector<std::uint32_t> face_of_;  // of each triangle: the face of the exact mesh
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> neighbours_;  // by directed side
@@ -346,11 +340,10 @@ Rational shortest_decimal(double x) {
 
 }  // namespace
 
-Rounding rounding_to_binary_doubles() { return {nearest_double, next_double, {exact_rational}}; }
-
-Rounding rounding_to_decimals() { return {nearest_double, next_double, {shortest_decimal, exact_rational}}; }
-
-Rounding rounding_to_binary_floats() {
+Rounding rounding_to(FileNumbers numbers) {
+  NEF_ASSERT(numbers != FileNumbers::kNone);
+  if (numbers == FileNumbers::kDoubles) return {nearest_double, next_double, {exact_rational}};
+  if (numbers == FileNumbers::kDecimals) return {nearest_double, next_double, {shortest_decimal, exact_rational}};
   return {[](const Rational& x) { return static_cast<double>(nearest_float(x)); }, next_float, {exact_rational}};
 }
 
@@ -371,10 +364,18 @@ std::string rounded_problem(const Mesh& exact, const Rounding& rounding, const M
   return Mender(exact, rounding, monitor).problem();
 }
 
-bool is_kept(const Rational& value, const Rounding& rounding) {
-  const double rounded = rounding.nearest(value);
-  return std::isfinite(rounded) && std::all_of(rounding.readings.begin(), rounding.readings.end(),
-                                               [&](const auto& reading) { return reading(rounded) == value; });
+bool is_kept(const Rational3& point, const Rounding& rounding, Readers readers) {
+  const auto end = readers == Readers::kAll ? rounding.readings.end() : rounding.readings.begin() + 1;
+  return std::all_of(point.begin(), point.end(), [&](const Rational& x) {
+    const double rounded = rounding.nearest(x);
+    return std::isfinite(rounded) &&
+           std::all_of(rounding.readings.begin(), end, [&](const auto& reading) { return reading(rounded) == x; });
+  });
+}
+
+bool are_kept(const Mesh& mesh, const Rounding& rounding) {
+  return std::all_of(mesh.vertices.begin(), mesh.vertices.end(),
+                     [&](const Rational3& p) { return is_kept(p, rounding); });
 }
 
 MendedMesh round_mesh(const Mesh& exact, const Rounding& rounding, const Monitor& monitor) {

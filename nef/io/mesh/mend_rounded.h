@@ -9,6 +9,7 @@
 
 #include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
+#include "nef/io/mesh/mesh_formats.h"
 
 namespace nef {
 
@@ -18,14 +19,13 @@ struct Rounding {
   std::function<double(const Rational&)> nearest;
   /// The number of the format next to one of them, up or down.
   std::function<double(double, bool up)> next;
-  /// What readers make of such a number; there may be several opinions (0.1 is a tenth, or a double near it).
+  /// What readers make of such a number, this library first; there may be several opinions (0.1 is a tenth, or a double
+  /// near it).
   std::vector<std::function<Rational(double)>> readings;
 };
 
-/// Numbers written as doubles in binary, as the shortest decimals that tell the doubles apart, and as floats in binary.
-Rounding rounding_to_binary_doubles();
-Rounding rounding_to_decimals();
-Rounding rounding_to_binary_floats();
+/// That of a format's numbers (not kNone).
+Rounding rounding_to(FileNumbers numbers);
 
 /// A mesh that was rounded.
 struct MendedMesh {
@@ -49,8 +49,17 @@ std::string strict_problem(const Mesh& mesh, const Monitor& monitor = {});
 /// The same for the mesh with rounded coordinates, in the first reading that has a problem.
 std::string rounded_problem(const Mesh& exact, const Rounding& rounding, const Monitor& monitor = {});
 
-/// True if a number is the same in every reading after rounding: nothing happens to it in a file.
-bool is_kept(const Rational& value, const Rounding& rounding);
+/// Whose readings count.
+enum class Readers : std::uint8_t {
+  kAll,   ///< every one
+  kOurs,  ///< that of this library, which takes decimals for what they spell
+};
+
+/// True if nothing happens to a point in a file: it is the same after rounding, in the readings that count.
+bool is_kept(const Rational3& point, const Rounding& rounding, Readers readers = Readers::kAll);
+
+/// The same of all vertices of a mesh. O(n).
+bool are_kept(const Mesh& mesh, const Rounding& rounding);
 
 /// Rounds the vertices of a legal closed mesh of convex faces. Where the result is not strictly legal, vertices go to
 /// other numbers nearby and slivers are flipped or contracted, as long as that takes few rounds; then all faces are

@@ -47,14 +47,8 @@ void append_color(std::string& text, const std::array<std::uint8_t, 3>& color) {
 }
 
 // The outward unit normal of a triangle in doubles, for readers that want one; zero where it can not be told.
-std::array<double, 3> unit_normal(const std::array<std::array<double, 3>, 3>& t) {
-  std::array<double, 3> u;
-  std::array<double, 3> v;
-  for (std::size_t i = 0; i < 3; ++i) {
-    u[i] = t[1][i] - t[0][i];
-    v[i] = t[2][i] - t[0][i];
-  }
-  std::array<double, 3> n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+Double3 unit_normal(const std::array<Double3, 3>& t) {
+  Double3 n = cross(minus(t[1], t[0]), minus(t[2], t[0]));
   const double length = std::hypot(n[0], n[1], n[2]);
   if (!(length > 0) || !std::isfinite(length)) return {0, 0, 0};
   for (double& x : n) x /= length;
@@ -75,7 +69,7 @@ std::string offset_text(const char* before, const Rational3& offset, const char*
 std::string text_stl(const Mesh& mesh, const MeshSurface& surface, const Rational3& offset) {
   std::vector<std::array<double, 3>> points;
   for (const Rational3& p : mesh.vertices) {
-    points.push_back({nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])});
+    points.push_back(nearest_doubles(p));
   }
   const auto append = [](std::string& text, const std::array<double, 3>& p) {
     for (const double x : p) {
@@ -258,25 +252,6 @@ void refuse_infinite(const Mesh& mesh, const MeshFormat& format, const MeshWrite
                       FileElement::vertex(v));
     }
   }
-}
-
-bool survives_writing(const Rational3& point, const MeshFormat& format, const MeshWriteOptions& options) {
-  if (options.exact) return true;
-  const FileNumbers numbers = format.numbers(options.binary);
-  std::string text;
-  Rational back;
-  for (const Rational& x : point) {
-    const double rounded = numbers == FileNumbers::kFloats ? static_cast<double>(nearest_float(x)) : nearest_double(x);
-    if (!std::isfinite(rounded)) return false;
-    if (numbers != FileNumbers::kDecimals) {
-      if (cmp(x, exact_rational(rounded)) != 0) return false;
-      continue;
-    }
-    text.clear();
-    append_number(text, rounded);
-    if (!parse_number(text, back) || back != x) return false;
-  }
-  return true;
 }
 
 std::string merged_vertices(const Mesh& mesh, bool single) {

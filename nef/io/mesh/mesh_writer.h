@@ -59,9 +59,4 @@ std::string ply_bytes(const Mesh& mesh, const MeshWriteOptions& options = {});
 
 /// Throws FileError if a coordinate has no finite number near it in the format.
 void refuse_infinite(const Mesh& mesh, const MeshFormat& format, const MeshWriteOptions& options);
-
-/// True if a point is the same after it was written to the format and read again: its coordinates are short decimals in
-/// text, doubles or floats in binary. Polygons of such points stay planar.
-bool survives_writing(const Rational3& point, const MeshFormat& format, const MeshWriteOptions& options);
-
 }  // namespace nef

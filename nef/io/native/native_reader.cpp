@@ -153,17 +153,11 @@ class Reader {
     point_.pop();
   }
 
-  void check_planes(PointId point, std::size_t v) const {
-    const auto check = [&](PlaneId plane) {
+  void check_planes(PointId point, std::size_t v) {
+    for_each_plane(map_, [&](PlaneId plane) {
       if (side_of_plane(table_, plane, point_, point, monitor_) == 0) return;
       corrupt("vertex " + std::to_string(v) + " does not lie on its planes");
-    };
-    for (const SVertex& s : map_.svertices) {
-      check(s.p);
-      check(s.q);
-    }
-    for (const SHalfedge& e : map_.shalfedges) check(e.plane);
-    for (const SLoop& l : map_.sloops) check(l.plane);
+    });
   }
 
   void sphere_map() {

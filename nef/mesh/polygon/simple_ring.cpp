@@ -6,7 +6,9 @@
 #include <vector>
 
 namespace nef {
+namespace {
 
+// True if the closed segments ab and cd have a point in common.
 bool segments_meet(const MeshPoints& points, std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d,
                    std::size_t axis, const Monitor& monitor) {
   const int c_side = points.orientation_along(a, b, c, axis, monitor);
@@ -22,21 +24,28 @@ bool segments_meet(const MeshPoints& points, std::uint32_t a, std::uint32_t b, s
   return points.compare(low1, high2) <= 0 && points.compare(low2, high1) <= 0;
 }
 
+}  // namespace
+
 std::optional<std::array<std::uint32_t, 2>> sides_that_meet(const MeshPoints& points,
-                                                            std::span<const std::uint32_t> ring, std::size_t axis,
+                                                            std::span<const std::uint32_t> corners,
+                                                            std::span<const std::uint32_t> ring_end, std::size_t axis,
                                                             const Monitor& monitor) {
-  const auto n = static_cast<std::uint32_t>(ring.size());
-  const auto corner = [&](std::uint32_t i) { return ring[i % n]; };
+  const auto n = static_cast<std::uint32_t>(corners.size());
+  std::vector<std::uint32_t> next(n);
+  for (std::uint32_t begin = 0; const std::uint32_t end : ring_end) {
+    for (std::uint32_t i = begin; i < end; ++i) next[i] = i + 1 == end ? begin : i + 1;
+    begin = end;
+  }
   std::vector<Box> boxes(n);
   for (std::uint32_t i = 0; i < n; ++i) {
-    points.extend(boxes[i], corner(i));
-    points.extend(boxes[i], corner(i + 1));
+    points.extend(boxes[i], corners[i]);
+    points.extend(boxes[i], corners[next[i]]);
   }
   // Neighbours meet in more than their corner if the second runs back along the first.
   const auto runs_back = [&](std::uint32_t i) {
-    const std::uint32_t p = corner(i);
-    const std::uint32_t q = corner(i + 1);
-    const std::uint32_t r = corner(i + 2);
+    const std::uint32_t p = corners[i];
+    const std::uint32_t q = corners[next[i]];
+    const std::uint32_t r = corners[next[next[i]]];
     return points.orientation_along(p, q, r, axis, monitor) == 0 &&
            (points.compare(p, q) < 0) == (points.compare(r, q) < 0);
   };
@@ -45,12 +54,10 @@ std::optional<std::array<std::uint32_t, 2>> sides_that_meet(const MeshPoints& po
     const std::array<std::uint32_t, 2> pair{i, j};
     if (least && *least <= pair) return;
     bool meet = false;
-    if (j == i + 1) {
-      meet = runs_back(i);
-    } else if ((j + 1) % n == i) {
-      meet = runs_back(j);
+    if (next[i] == j || next[j] == i) {
+      meet = runs_back(next[i] == j ? i : j);
     } else {
-      meet = segments_meet(points, corner(i), corner(i + 1), corner(j), corner(j + 1), axis, monitor);
+      meet = segments_meet(points, corners[i], corners[next[i]], corners[j], corners[next[j]], axis, monitor);
     }
     if (meet) least = pair;
   });

@@ -1,18 +1,62 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Convex rings, told by the turns of their corners, become fans; other polygons are swept, or lose their ears, if they
+// are small and have no holes. Rings of faces are looked at along the axis along which they look largest, or else along
+// another one.
 #include "nef/mesh/polygon/triangulate.h"
+
+#include <algorithm>
+#include <cmath>
 
 #include "nef/complex/facet_plane.h"
 
 namespace nef {
+namespace {
+
+// The coordinate axes, the one along which a polygon looks largest first, by its area vector in doubles.
+std::array<std::size_t, 3> projection_axes(const MeshPoints& points, const std::vector<std::uint32_t>& ring) {
+  std::array<double, 3> area{};
+  const auto& origin = points.approximate(ring[0]);
+  for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
+    const auto& p = points.approximate(ring[i]);
+    const auto& q = points.approximate(ring[i + 1]);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t j = (axis + 1) % 3;
+      const std::size_t k = (axis + 2) % 3;
+      area[axis] += (p[j] - origin[j]) * (q[k] - origin[k]) - (p[k] - origin[k]) * (q[j] - origin[j]);
+    }
+  }
+  std::array<std::size_t, 3> order{0, 1, 2};
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t i, std::size_t j) { return std::abs(area[i]) > std::abs(area[j]); });
+  return order;
+}
+
+}  // namespace
 
 ProjectionAxis projection_axis(const PlaneTable& planes, PlaneId plane) {
   const PlaneAxes axes(planes, plane);
   return {static_cast<std::size_t>(axes.dropped), axes.positive != plane.flipped() ? 1 : -1};
 }
 
-// Of a ring whose corners all turn left by less than half a turn: it goes around once if it rises once and falls once.
+int ring_orientation(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis,
+                     const Monitor& monitor) {
+  const std::size_t u = (axis + 1) % 3;
+  const std::size_t v = (axis + 2) % 3;
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < ring.size(); ++i) {
+    const int order = points.compare(ring[i], ring[best], u);
+    if (order < 0 || (order == 0 && points.compare(ring[i], ring[best], v) < 0)) best = i;
+  }
+  const std::size_t n = ring.size();
+  return points.orientation_along(ring[(best + n - 1) % n], ring[best], ring[(best + 1) % n], axis, monitor);
+}
+
+// Of a ring whose corners all turn left by less than half a turn, so that four cannot go around twice: it goes around
+// once if it rises once and falls once.
 bool Triangulator::goes_around_once() const {
   const auto n = static_cast<std::uint32_t>(projected_.size());
+  if (n <= 4) return true;
   std::uint32_t peaks = 0;
   bool rose = projected_.before(projected_[n - 1], projected_[0]);
   for (std::uint32_t i = 0; i < n; ++i) {
@@ -29,6 +73,26 @@ bool Triangulator::is_convex() const {
     if (!projected_.turns_left(i == 0 ? n - 1 : i - 1, i, i + 1 == n ? 0 : i + 1)) return false;
   }
   return goes_around_once();
+}
+
+bool Triangulator::is_convex(std::span<const std::uint32_t> ring, std::size_t axis) {
+  const int turn = points_.orientation_along(ring.back(), ring[0], ring[1], axis, monitor_);
+  if (turn == 0) return false;
+  projected_.assign(ring, axis, turn);
+  return is_convex();
+}
+
+Triangulator::Cut Triangulator::cut(const std::vector<std::uint32_t>& ring, std::vector<Triangle>& out) {
+  for (const std::size_t axis : projection_axes(points_, ring)) {
+    // A ring that is convex there has its triangles over disjoint triangles there, planar or not.
+    if (is_convex(ring, axis)) {
+      cut_convex(ring, out);
+      return Cut::kConvex;
+    }
+    const int sign = ring_orientation(points_, ring, axis, monitor_);
+    if (sign != 0 && triangulate(ring, axis, sign, out)) return Cut::kDone;
+  }
+  return Cut::kFailed;
 }
 
 // Two triangles on both sides of a diagonal are the polygon if both turn left.

@@ -24,13 +24,29 @@ struct ProjectionAxis {
 };
 ProjectionAxis projection_axis(const PlaneTable& planes, PlaneId plane);
 
+/// +1 if a ring of at least three points turns counterclockwise in the projection along `axis`, -1 if clockwise, 0 if
+/// its farthest corner there is flat (the projection, or the ring, is no simple polygon). Exact. O(n).
+int ring_orientation(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis,
+                     const Monitor& monitor);
+
 /// Triangulates polygons on the points of one MeshPoints. Keeps its memory from call to call; one per thread.
 class Triangulator {
  public:
   using Triangle = std::array<std::uint32_t, 3>;
 
   /// `points` must outlive the triangulator.
-  Triangulator(const MeshPoints& points, const Monitor& monitor) : projected_(points, monitor) {}
+  Triangulator(const MeshPoints& points, const Monitor& monitor)
+      : points_(points), monitor_(monitor), projected_(points, monitor) {}
+
+  /// What came of a ring that was cut: nothing, triangles, or those of a ring that is strictly convex as it is seen.
+  enum class Cut : std::uint8_t { kFailed, kDone, kConvex };
+
+  /// Cuts a ring, planar or not, that may be no polygon, along the axis that shows it largest of those that show it as
+  /// a simple polygon: as a fan where it is convex there, else ear by ear. Appends nothing if it fails.
+  Cut cut(const std::vector<std::uint32_t>& ring, std::vector<Triangle>& out);
+
+  /// True if a ring of three points at least is strictly convex in the projection along `axis`. O(n).
+  [[nodiscard]] bool is_convex(std::span<const std::uint32_t> ring, std::size_t axis);
 
   /// Cuts a polygon into triangles between its own vertices, oriented like it, and appends them to `out`. The corners
   /// are given ring after ring, each ring ending before the corner that ring_end says. The first ring is the outer one;
@@ -54,10 +70,8 @@ class Triangulator {
   /// a polygon in more rings: corners may lie inside of edges, from within. O(n) for convex polygons, O(n^2) at worst.
   bool triangulate(std::span<const std::uint32_t> ring, std::size_t axis, int sign, std::vector<Triangle>& out);
 
-  /// The same for a ring that is strictly convex (in some projection), which is not asked again. O(n).
-  void cut_convex(std::span<const std::uint32_t> ring, std::vector<Triangle>& out);
-
  private:
+  void cut_convex(std::span<const std::uint32_t> ring, std::vector<Triangle>& out);
   void push(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::vector<Triangle>& out) const {
     out.push_back({projected_.point(a), projected_.point(b), projected_.point(c)});
   }
@@ -65,6 +79,8 @@ class Triangulator {
   [[nodiscard]] bool is_convex() const;
   bool cut_four(std::vector<Triangle>& out) const;
 
+  const MeshPoints& points_;
+  Monitor monitor_;
   ProjectedCorners projected_;
   SweepTriangulator sweep_;
   EarClipper ears_;

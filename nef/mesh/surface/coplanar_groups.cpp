@@ -10,10 +10,9 @@
 #include <array>
 
 #include "nef/base/union_find.h"
-#include "nef/geometry/box_tree.h"
 #include "nef/mesh/edge_order.h"
 #include "nef/mesh/polygon/simple_ring.h"
-#include "nef/mesh/surface/mesh_surface.h"
+#include "nef/mesh/polygon/triangulate.h"
 
 namespace nef {
 namespace {
@@ -50,7 +49,7 @@ class Grouper {
       for (std::size_t i = 0; i < ring.size(); ++i) {
         const std::uint32_t u = ring[i];
         const std::uint32_t v = ring[i + 1 == ring.size() ? 0 : i + 1];
-        sides_.push_back({pair_key(std::min(u, v), std::max(u, v)), p, u, v, false});
+        sides_.push_back({edge_key(u, v), p, u, v, false});
       }
     }
     sort_by_pair(sides_, points_.size());
@@ -135,39 +134,13 @@ class Grouper {
     const std::span<const std::uint32_t> first = polygons_[group.members[0]];
     const std::size_t axis = points_.projection_axis(first[0], first[1], first[2], monitor_);
     const int turn = points_.orientation_along(first[0], first[1], first[2], axis, monitor_);
-    const auto n = static_cast<std::uint32_t>(group.cycles.size());
-    std::vector<std::uint32_t> next(n);
     std::size_t outer = 0;
     for (std::uint32_t begin = 0; const std::uint32_t end : group.cycle_end) {
-      for (std::uint32_t i = begin; i < end; ++i) next[i] = i + 1 == end ? begin : i + 1;
       const std::vector<std::uint32_t> ring(group.cycles.begin() + begin, group.cycles.begin() + end);
       if (ring_orientation(points_, ring, axis, monitor_) == turn) ++outer;
       begin = end;
     }
-    if (outer != 1) return false;
-    std::vector<Box> boxes(n);
-    for (std::uint32_t i = 0; i < n; ++i) {
-      points_.extend(boxes[i], group.cycles[i]);
-      points_.extend(boxes[i], group.cycles[next[i]]);
-    }
-    const auto runs_back = [&](std::uint32_t i) {
-      const std::uint32_t p = group.cycles[i];
-      const std::uint32_t q = group.cycles[next[i]];
-      const std::uint32_t r = group.cycles[next[next[i]]];
-      return points_.orientation_along(p, q, r, axis, monitor_) == 0 &&
-             (points_.compare(p, q) < 0) == (points_.compare(r, q) < 0);
-    };
-    bool meet = false;
-    BoxTree(boxes).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
-      if (meet) return;
-      if (next[i] == j || next[j] == i) {
-        meet = runs_back(next[i] == j ? i : j);
-      } else {
-        meet = segments_meet(points_, group.cycles[i], group.cycles[next[i]], group.cycles[j], group.cycles[next[j]],
-                             axis, monitor_);
-      }
-    });
-    return !meet;
+    return outer == 1 && !sides_that_meet(points_, group.cycles, group.cycle_end, axis, monitor_);
   }
 
   const MeshPoints& points_;

@@ -62,32 +62,6 @@ bool on_one_line(const MeshPoints& points, const std::vector<std::uint32_t>& rin
   return true;
 }
 
-// The turn that all corners of the ring make along the axis; 0 if they do not make the same.
-int common_turn(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis,
-                const Monitor& monitor) {
-  const std::size_t n = ring.size();
-  const int turn = points.orientation_along(ring[n - 1], ring[0], ring[1], axis, monitor);
-  for (std::size_t i = 1; i < n && turn != 0; ++i) {
-    if (points.orientation_along(ring[i - 1], ring[i], ring[i + 1 == n ? 0 : i + 1], axis, monitor) != turn) return 0;
-  }
-  return turn;
-}
-
-// True if a ring whose corners all make the same turn goes around only once (along one axis, it rises once and falls
-// once). Each corner turns by less than half a turn, so four can not go around twice.
-bool goes_around_once(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis) {
-  if (ring.size() <= 4) return true;
-  const std::size_t u = (axis + 1) % 3;
-  std::size_t peaks = 0;
-  bool rose = points.compare(ring.back(), ring[0], u) <= 0;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const bool rises = points.compare(ring[i], ring[i + 1 == ring.size() ? 0 : i + 1], u) <= 0;
-    peaks += rose && !rises ? 1 : 0;
-    rose = rises;
-  }
-  return peaks == 1;
-}
-
 // Planar, or without area. The ring has no corner twice in a row, and if it is convex, none on a line with the next
 // two.
 bool is_planar(const MeshPoints& points, const std::vector<std::uint32_t>& ring, bool is_convex,
@@ -95,22 +69,6 @@ bool is_planar(const MeshPoints& points, const std::vector<std::uint32_t>& ring,
   std::size_t k = 2;
   while (!is_convex && k < ring.size() && points.collinear(ring[0], ring[1], ring[k], monitor)) ++k;
   return k + 1 >= ring.size() || points.coplanar(ring[0], ring[1], ring[k], std::span(ring).subspan(k + 1));
-}
-
-// Polygons are cut along the best axis that shows them as simple polygons.
-enum class Cut : std::uint8_t { kFailed, kDone, kConvex };
-Cut cut(const MeshPoints& points, Triangulator& triangulator, const std::vector<std::uint32_t>& ring,
-        std::vector<std::array<std::uint32_t, 3>>& out, const Monitor& monitor) {
-  for (const std::size_t axis : projection_axes(points, ring)) {
-    // A ring that is convex there has its triangles over disjoint triangles there, planar or not.
-    if (common_turn(points, ring, axis, monitor) != 0 && goes_around_once(points, ring, axis)) {
-      triangulator.cut_convex(ring, out);
-      return Cut::kConvex;
-    }
-    const int sign = ring_orientation(points, ring, axis, monitor);
-    if (sign != 0 && triangulator.triangulate(ring, axis, sign, out)) return Cut::kDone;
-  }
-  return Cut::kFailed;
 }
 
 // True if the first ring comes before the second one, of as many corners, by the first corner where they differ.
@@ -122,8 +80,8 @@ bool is_less(const MeshPoints& points, const std::vector<std::uint32_t>& a, cons
 // Cuts a ring in no plane, where the surface depends on the cut: the same way wherever the ring begins and whichever
 // way it turns, so that a face and its back cancel, and a mesh that is turned over bounds what it did. Of all ways to
 // walk along the ring from one of its least corners, the least one is cut.
-Cut cut_bent(const MeshPoints& points, Triangulator& triangulator, const std::vector<std::uint32_t>& ring,
-             std::vector<std::array<std::uint32_t, 3>>& out, const Monitor& monitor) {
+Triangulator::Cut cut_bent(const MeshPoints& points, Triangulator& triangulator, const std::vector<std::uint32_t>& ring,
+                           std::vector<Triangulator::Triangle>& out) {
   const std::uint32_t least = *std::min_element(
       ring.begin(), ring.end(), [&](std::uint32_t a, std::uint32_t b) { return points.compare(a, b) < 0; });
   std::vector<std::uint32_t> best;
@@ -140,43 +98,12 @@ Cut cut_bent(const MeshPoints& points, Triangulator& triangulator, const std::ve
     }
   }
   const std::size_t first = out.size();
-  const Cut done = cut(points, triangulator, best, out, monitor);
+  const Triangulator::Cut done = triangulator.cut(best, out);
   for (std::size_t t = first; is_reversed && t < out.size(); ++t) std::swap(out[t][1], out[t][2]);
   return done;
 }
 
 }  // namespace
-
-std::array<std::size_t, 3> projection_axes(const MeshPoints& points, const std::vector<std::uint32_t>& ring) {
-  std::array<double, 3> area{};
-  const auto& origin = points.approximate(ring[0]);
-  for (std::size_t i = 0; i + 1 < ring.size(); ++i) {
-    const auto& p = points.approximate(ring[i]);
-    const auto& q = points.approximate(ring[i + 1]);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const std::size_t j = (axis + 1) % 3;
-      const std::size_t k = (axis + 2) % 3;
-      area[axis] += (p[j] - origin[j]) * (q[k] - origin[k]) - (p[k] - origin[k]) * (q[j] - origin[j]);
-    }
-  }
-  std::array<std::size_t, 3> order{0, 1, 2};
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t i, std::size_t j) { return std::abs(area[i]) > std::abs(area[j]); });
-  return order;
-}
-
-int ring_orientation(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis,
-                     const Monitor& monitor) {
-  const std::size_t u = (axis + 1) % 3;
-  const std::size_t v = (axis + 2) % 3;
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < ring.size(); ++i) {
-    const int order = points.compare(ring[i], ring[best], u);
-    if (order < 0 || (order == 0 && points.compare(ring[i], ring[best], v) < 0)) best = i;
-  }
-  const std::size_t n = ring.size();
-  return points.orientation_along(ring[(best + n - 1) % n], ring[best], ring[(best + 1) % n], axis, monitor);
-}
 
 MeshSurface::MeshSurface(const Mesh& mesh, const Monitor& monitor)
     : points(mesh.vertices),
@@ -220,16 +147,16 @@ MeshSurface::MeshSurface(const Mesh& mesh, const Monitor& monitor)
       }
     } else {
       const std::size_t first = triangles.size();
-      Cut done = cut(points, triangulator, ring, triangles, monitor);
-      is_flat = is_planar(points, ring, done == Cut::kConvex, monitor);
+      Triangulator::Cut done = triangulator.cut(ring, triangles);
+      is_flat = is_planar(points, ring, done == Triangulator::Cut::kConvex, monitor);
       if (!is_flat) {
         triangles.resize(first);
-        done = cut_bent(points, triangulator, ring, triangles, monitor);
+        done = cut_bent(points, triangulator, ring, triangles);
       }
-      if (done == Cut::kFailed) {
+      if (done == Triangulator::Cut::kFailed) {
         defects[f] = on_one_line(points, ring, monitor) ? FaceDefect::kNoArea : FaceDefect::kCrossesItself;
       }
-      in_one_piece = done == Cut::kConvex;
+      in_one_piece = done == Triangulator::Cut::kConvex;
     }
     planar.push_back(is_flat);
     if (defects[f] == FaceDefect::kNone && planar[f] && !irregular[f] && ring.size() > 3) {

@@ -49,18 +49,21 @@ struct MeshSurface {
     return corners;
   }
 
+  /// Calls visit(a, b, c) for the triangles into which a face was cut, or for a fan if it was not.
+  template <typename Visit>
+  void for_each_triangle(const Mesh& mesh, std::uint32_t face, Visit&& visit) const {
+    for (std::uint32_t t = triangle_begin[face]; t < triangle_begin[face + 1]; ++t) {
+      visit(triangles[t][0], triangles[t][1], triangles[t][2]);
+    }
+    if (triangle_begin[face] != triangle_begin[face + 1]) return;
+    const auto ring = mesh.face(face);
+    for (std::size_t i = 1; i + 1 < ring.size(); ++i) visit(ring[0], ring[i], ring[i + 1]);
+  }
+
   /// The corners of a planar face that was cut and names no vertex twice; none for others.
   [[nodiscard]] std::span<const std::uint32_t> ring(std::uint32_t face) const {
     return std::span(rings).subspan(ring_begin[face], ring_begin[face + 1] - ring_begin[face]);
   }
 };
-
-/// The coordinate axes, the one along which a polygon looks largest first (by its area vector in doubles).
-std::array<std::size_t, 3> projection_axes(const MeshPoints& points, const std::vector<std::uint32_t>& ring);
-
-/// +1 if a ring of at least three points turns counterclockwise in the projection along `axis`, -1 if clockwise, 0 if
-/// its farthest corner there is flat (the projection, or the ring, is no simple polygon). Exact. O(n).
-int ring_orientation(const MeshPoints& points, const std::vector<std::uint32_t>& ring, std::size_t axis,
-                     const Monitor& monitor);
 
 }  // namespace nef

@@ -188,7 +188,7 @@ const std::vector<SurfaceContacts::HalfEdge>& SurfaceContacts::half_edges() cons
       for (std::size_t i = 0; i < 3; ++i) {
         const std::uint32_t u = triangles[t][i];
         const std::uint32_t v = triangles[t][(i + 1) % 3];
-        half_edges_.push_back({pair_key(std::min(u, v), std::max(u, v)), t, triangles[t][(i + 2) % 3], u < v ? 1 : -1});
+        half_edges_.push_back({edge_key(u, v), t, triangles[t][(i + 2) % 3], u < v ? 1 : -1});
       }
     }
     sort_by_pair(half_edges_, points_.size());
@@ -205,7 +205,7 @@ int SurfaceContacts::side(std::uint32_t triangle, std::uint32_t place) const {
 }
 
 std::span<const SurfaceContacts::HalfEdge> SurfaceContacts::around(std::uint32_t u, std::uint32_t v) const {
-  const std::uint64_t key = pair_key(std::min(u, v), std::max(u, v));
+  const std::uint64_t key = edge_key(u, v);
   const auto less = [](const HalfEdge& a, const HalfEdge& b) { return a.key < b.key; };
   const auto [first, last] = std::equal_range(half_edges().begin(), half_edges().end(), HalfEdge{key, 0, 0, 0}, less);
   return {first, last};

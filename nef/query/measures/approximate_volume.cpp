@@ -32,12 +32,6 @@ Interval3 enclosure(const Double3& p) {
 
 Interval3 enclosure(const Complex& c, VertexId v) { return enclosure(c.points.approximate(point_of(v))); }
 
-bool has_finite_corners(const Complex& c, const Facet& facet) {
-  const std::span<const SHalfedgeId> corners = c.corners_of(facet);
-  return std::none_of(corners.begin(), corners.end(),
-                      [&c](SHalfedgeId corner) { return is_box_vertex(c, c.shalfedge_vertex(corner)); });
-}
-
 bool has_infinite_volume(const Complex& c) {
   if (is_selected(c.volumes[kOuterVolume].mark)) return true;
   for (const FacetId f : c.facets.ids()) {

@@ -32,7 +32,7 @@ class MeshTiler {
       : mesh_(mesh), triangles_(std::move(triangles)), tiling_(tiling) {
     places_.reserve(mesh.vertices.size());
     for (const Rational3& p : mesh.vertices) {
-      places_.push_back({nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])});
+      places_.push_back(nearest_doubles(p));
     }
   }
 
@@ -99,7 +99,7 @@ class MeshTiler {
 
   // Of a point that is not on the surface: how often the surface above it turns its back. O(n).
   [[nodiscard]] bool inside(const Rational3& p) const {
-    const std::array<double, 3> place{nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])};
+    const std::array<double, 3> place = nearest_doubles(p);
     int winding = 0;
     for (std::uint32_t t = 0; t < triangles_.size(); ++t) {
       if (extent(t, 2)[1] < place[2]) continue;

@@ -70,13 +70,12 @@ auto with_sums(const HowToSum& how, Compute&& compute) {
   options.strategy = strategy_named(how.strategy);
   const auto counts = std::make_shared<minkowski::MinkowskiReport>();
   auto result = call(kSmallCall, [=, threads = how.threads](const Monitor& monitor) {
-    minkowski::MinkowskiOptions with_monitor = options;
-    with_monitor.progress = [told, monitor](std::size_t done, std::size_t total) {
-      told(monitor, done, total);
-      return true;
+    const nef::ProgressFunction tell = [&](const char* phase, std::size_t done, std::size_t total) {
+      if (told && phase == minkowski::kSumPhase) told(monitor, done, total);
+      monitor.tell_progress(phase, done, total);
     };
-    with_monitor.monitor = monitor.on_threads(threads);
-    return compute(with_monitor, counts.get());
+    return compute(minkowski::MinkowskiOptions{options.strategy, monitor.on_threads(threads).telling(tell)},
+                   counts.get());
   });
   fill(how.report, *counts);
   return result;

@@ -191,7 +191,7 @@ TEST_CASE("faces of a mended mesh lie where the faces do that they come from") {
     const Polyhedron a = ball(6, 12, 8);
     const Polyhedron b = transform(a, AffineMap::rotate({1, 2, 5}, angle));
     const Mesh exact = to_mesh(symmetric_difference(a, b)).mesh;
-    const MendedMesh rounded = round_mesh(exact, rounding_to_binary_floats());
+    const MendedMesh rounded = round_mesh(exact, rounding_to(FileNumbers::kFloats));
     if (rounded.face_of.empty()) continue;
     REQUIRE(rounded.face_of.size() == rounded.mesh.face_count());
     ++mended;

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/minkowski/cells/exact_cells.h"
+#include "nef/geometry/plane_finder.h"
 #include "nef/mesh/polygon/triangulate.h"
 
 namespace nef::minkowski {

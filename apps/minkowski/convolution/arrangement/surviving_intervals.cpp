@@ -16,6 +16,7 @@
 
 #include "apps/minkowski/convolution/arrangement/linked_intervals.h"
 #include "apps/minkowski/convolution/arrangement/meeting_facets.h"
+#include "apps/minkowski/minkowski.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/geometry/box_tree.h"
 #include "nef/mesh/edge_order.h"
@@ -377,32 +378,32 @@ struct FoundSegments {
 using FacetPair = std::array<std::uint32_t, 2>;
 
 void add_segments_of(std::span<const FacetPair> pairs, const ConvolutionFacets& facets, const RoundedFacets& rounded,
-                     const IntervalOptions& options, FoundSegments& result) {
+                     bool passages, FoundSegments& result, const Monitor& monitor) {
   constexpr std::size_t kChunk = 2048;
   std::vector<FoundSegments> found((pairs.size() + kChunk - 1) / kChunk);
-  parallel_for(found.size(), options.monitor, [&](std::size_t chunk, const Monitor& own) {
+  parallel_for(found.size(), monitor, [&](std::size_t chunk, const Monitor& own) {
     SegmentFinder finder(facets, rounded, own);
     for (const auto& [f, g] : pairs.subspan(chunk * kChunk, std::min(kChunk, pairs.size() - chunk * kChunk))) {
       if (std::optional<FacetSegment> s = finder.find(f, g)) found[chunk].segments.push_back(*s);
     }
-    if (options.passages) found[chunk].touching = finder.touching_corners();
+    if (passages) found[chunk].touching = finder.touching_corners();
   });
   for (const FoundSegments& part : found) result.append(part);
 }
 
 // Blocks of pairs keep memory low and give several threads something to do.
-FoundSegments all_segments(const ConvolutionFacets& facets, const RoundedFacets& rounded,
-                           const IntervalOptions& options) {
+FoundSegments all_segments(const ConvolutionFacets& facets, const RoundedFacets& rounded, bool passages,
+                           const Monitor& monitor) {
   constexpr std::size_t kBlock = std::size_t{1} << 17U;
   FoundSegments result;
   std::vector<FacetPair> pairs;
   BoxTree(rounded.boxes()).for_each_pair([&](std::uint32_t f, std::uint32_t g) {
     pairs.push_back({f, g});
     if (pairs.size() < kBlock) return;
-    add_segments_of(pairs, facets, rounded, options, result);
+    add_segments_of(pairs, facets, rounded, passages, result, monitor);
     pairs.clear();
   });
-  add_segments_of(pairs, facets, rounded, options, result);
+  add_segments_of(pairs, facets, rounded, passages, result, monitor);
   return result;
 }
 
@@ -422,18 +423,18 @@ void append(const CutSegments& part, CutSegments& all) {
 
 CutSegments cut_segments(const ConvolutionFacets& facets, const RoundedFacets& rounded,
                          const std::vector<FacetSegment>& segments, const Sides& at_side,
-                         const SumMembership& membership, const IntervalOptions& options) {
+                         const SumMembership& membership, bool passages, const Monitor& monitor) {
   constexpr std::size_t kChunk = 256;
   constexpr std::size_t kBlock = 16 * kChunk;
   const MeetingFacets meeting(facets.size(), segments);
   CutSegments result;
   for (std::size_t block = 0; block < segments.size(); block += kBlock) {
-    options.poll(static_cast<double>(block) / static_cast<double>(segments.size()));
+    monitor.tell_progress(kSumPhase, block, segments.size());
     const std::size_t end = std::min(segments.size(), block + kBlock);
     std::vector<CutSegments> parts((end - block + kChunk - 1) / kChunk);
-    parallel_for(parts.size(), options.monitor, [&](std::size_t chunk, const Monitor& own) {
+    parallel_for(parts.size(), monitor, [&](std::size_t chunk, const Monitor& own) {
       const std::size_t first = block + chunk * kChunk;
-      parts[chunk] = SegmentCutter(facets, rounded, segments, at_side, meeting, membership, options.passages, own)
+      parts[chunk] = SegmentCutter(facets, rounded, segments, at_side, meeting, membership, passages, own)
                          .run(first, std::min(end, first + kChunk));
     });
     for (const CutSegments& part : parts) append(part, result);
@@ -447,14 +448,14 @@ std::uint64_t side_key(const ConvolutionFacets& facets, std::uint32_t facet, std
   const auto ring = facets.ring(facet);
   const std::uint32_t u = ring[side];
   const std::uint32_t v = ring[side + 1 < ring.size() ? side + 1 : 0];
-  return pair_key(std::min(u, v), std::max(u, v));
+  return edge_key(u, v);
 }
 
 SurvivingIntervals surviving_intervals(const ConvolutionFacets& facets, const RoundedFacets& rounded,
-                                       const SumMembership& membership, const IntervalOptions& options) {
+                                       const SumMembership& membership, bool passages, const Monitor& monitor) {
   Sides at_side = facets_at_sides(facets);
-  FoundSegments found = all_segments(facets, rounded, options);
-  CutSegments cut = cut_segments(facets, rounded, found.segments, at_side, membership, options);
+  FoundSegments found = all_segments(facets, rounded, passages, monitor);
+  CutSegments cut = cut_segments(facets, rounded, found.segments, at_side, membership, passages, monitor);
   remove_linked(std::move(cut.links), cut.intervals);
   return {std::move(found.segments), std::move(cut.cuts),       std::move(cut.cutting), std::move(cut.intervals),
           std::move(cut.doubtful),   std::move(found.touching), std::move(at_side)};

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -45,18 +44,13 @@ struct SurvivingIntervals {
 /// The key of a side in SurvivingIntervals::at_side.
 std::uint64_t side_key(const ConvolutionFacets& facets, std::uint32_t facet, std::uint32_t side);
 
-struct IntervalOptions {
-  bool passages = false;             ///< find doubtful cuts and touching corners, too
-  std::function<void(double)> poll;  ///< called with the share that is done; may throw; not empty
-  Monitor monitor = {};              ///< who watches; what it refers to must outlive the call
-};
-
 /// All segments, cut where they meet other facets, without intervals at which surely nothing is to be seen but the
 /// inside of the sum: a point of them is seen to be inside (`membership`, a grid); or a facet crosses at one end that
 /// has them behind it: just behind a facet is inside, up to the next one. Where three facets cross, and no other is
 /// there, one octant is in front of all three; if one of its three edges goes, so do the others.
+/// `passages`: find doubtful cuts and touching corners, too. The monitor is told of kSumPhase.
 /// In doubles: what is not sure, stays. O(n log n + k) for k pairs of segments on one facet whose boxes overlap.
 SurvivingIntervals surviving_intervals(const ConvolutionFacets& facets, const RoundedFacets& rounded,
-                                       const SumMembership& membership, const IntervalOptions& options);
+                                       const SumMembership& membership, bool passages, const Monitor& monitor);
 
 }  // namespace nef::minkowski

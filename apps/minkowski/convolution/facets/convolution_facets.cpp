@@ -9,11 +9,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/minkowski/cells/exact_cells.h"
 #include "apps/minkowski/convolution/facets/convex_pieces.h"
 #include "apps/minkowski/convolution/facets/polygon_sum.h"
 #include "apps/minkowski/planar/planar_sum.h"
 #include "nef/base/threads/parallel.h"
+#include "nef/geometry/plane_finder.h"
 #include "nef/geometry/vectors.h"
 #include "nef/mesh/edge_order.h"
 
@@ -68,7 +68,7 @@ class FeatureBoxes {
   FeatureBoxes(const SolidFeatures& solid, const NearOrigin& near) : near_(near) {
     if (near.is_all()) return;
     for (const Rational3& p : solid.points()) {
-      vertices_.emplace_back().add_rounded({nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])});
+      vertices_.emplace_back().add_rounded(nearest_doubles(p));
     }
     for (const ConvexEdge& e : solid.edges()) {
       edges_.push_back(vertices_[e.from]);
@@ -361,7 +361,7 @@ class Convolution {
 
   std::uint32_t new_corner(const Rational3& point) {
     result_.points.push(point);
-    result_.rounded.push_back({nearest_double(point[0]), nearest_double(point[1]), nearest_double(point[2])});
+    result_.rounded.push_back(nearest_doubles(point));
     return static_cast<std::uint32_t>(result_.rounded.size() - 1);
   }
 

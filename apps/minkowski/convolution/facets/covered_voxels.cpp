@@ -106,8 +106,7 @@ struct Extent {
 
 std::vector<Double3> rounded_points(const SolidFeatures& solid) {
   std::vector<Double3> result;
-  for (const Rational3& p : solid.points())
-    result.push_back({nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])});
+  for (const Rational3& p : solid.points()) result.push_back(nearest_doubles(p));
   return result;
 }
 

@@ -23,7 +23,7 @@ bool walks_a_side_twice(const std::vector<std::vector<std::uint32_t>>& rings) {
     for (std::size_t i = 0; i < ring.size(); ++i) {
       const std::uint32_t u = ring[i];
       const std::uint32_t v = ring[(i + 1) % ring.size()];
-      sides.push_back(pair_key(std::min(u, v), std::max(u, v)));
+      sides.push_back(edge_key(u, v));
     }
   }
   std::sort(sides.begin(), sides.end());
@@ -37,9 +37,8 @@ bool ConvexEdge::touches(const Direction& normal, const Monitor& monitor) const 
   return sign_of_determinant(line, first, normal, monitor) > 0 && sign_of_determinant(line, normal, last, monitor) > 0;
 }
 
-SolidFeatures::SolidFeatures(const Polyhedron& solid, const Monitor& monitor) : c_(solid.complex()) {
-  points_.reserve(c_.vertex_count());
-  for (const VertexId v : c_.vertex_ids()) points_.push_back(c_.points.rational(point_of(v)));
+SolidFeatures::SolidFeatures(const Polyhedron& solid, const Monitor& monitor)
+    : c_(solid.complex()), points_(c_.points.rationals()) {
   find_marks();
   directions_.reserve(c_.svertex_count());
   for (const HalfedgeId h : c_.halfedge_ids()) directions_.push_back(direction_of(c_.planes, c_.svertex(h)));
@@ -94,7 +93,7 @@ void SolidFeatures::mark_sides(FacetPiece& piece) const {
   for (std::size_t i = 0; i < piece.ring.size(); ++i) {
     const std::uint32_t u = piece.ring[i];
     const std::uint32_t w = piece.ring[i + 1 < piece.ring.size() ? i + 1 : 0];
-    const auto edge = edge_marks_.find(pair_key(std::min(u, w), std::max(u, w)));
+    const auto edge = edge_marks_.find(edge_key(u, w));
     if (edge != edge_marks_.end()) piece.sides[i] = edge->second;
   }
 }

@@ -12,6 +12,7 @@
 #include <algorithm>
 
 #include "apps/minkowski/convolution/marks/direction_into.h"
+#include "apps/minkowski/minkowski.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
@@ -166,10 +167,10 @@ void BoundaryMarker::mark(PointId point, bool is_saddle_point, SphereMapBuffer& 
   }
 }
 
-void BoundaryMarker::answer(const SumMembership& membership, const std::function<void(double)>& poll) {
+void BoundaryMarker::answer(const SumMembership& membership) {
   constexpr std::size_t kBlock = 256;
   for (std::size_t first = 0; first < questions_.size(); first += kBlock) {
-    poll(static_cast<double>(first) / static_cast<double>(questions_.size()));
+    monitor_.tell_progress(kSumPhase, first, questions_.size());
     parallel_for(std::min(kBlock, questions_.size() - first), monitor_, [&](std::size_t k, const Monitor& own) {
       const Question& q = questions_[first + k];
       *q.mark = *q.twin = membership.in_sum(q.point, own) ? 1 : 0;

@@ -3,7 +3,6 @@
 // Sums that lack parts of their boundary: which items around a point belong to them.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "apps/minkowski/convolution/arrangement/pyramid_drawer.h"
@@ -43,9 +42,8 @@ class BoundaryMarker {
   /// are.
   void mark(PointId point, bool is_saddle_point, SphereMapBuffer& map);
 
-  /// Puts what is open to the definition. `poll` is called by the calling thread with the share that is done
-  /// and may throw.
-  void answer(const SumMembership& membership, const std::function<void(double)>& poll);
+  /// Puts what is open to the definition, and tells of kSumPhase.
+  void answer(const SumMembership& membership);
 
   /// Points that were put to the definition.
   [[nodiscard]] std::size_t tested() const { return questions_.size(); }

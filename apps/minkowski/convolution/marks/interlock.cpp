@@ -140,7 +140,7 @@ std::vector<Saddle> saddles(const Complex& c, const Monitor& monitor) {
     Saddle saddle;
     saddle.vertex = v;
     const Rational3 at = c.points.rational(point_of(v));
-    saddle.near = {nearest_double(at[0]), nearest_double(at[1]), nearest_double(at[2])};
+    saddle.near = nearest_doubles(at);
     saddle.box.add_rounded(saddle.near);
     for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
       if (map.sfaces[map.shalfedges[e].sface].mark == 0) continue;

@@ -23,12 +23,12 @@ class SumMembership {
   [[nodiscard]] bool in_sum(const Rational3& x, const Monitor& monitor) const;
   /// True for a point of the sum of the interiors of the closures; also where single points of the sets are missing.
   [[nodiscard]] bool in_inside(const Rational3& x, const Monitor& monitor) const;
-  /// The same, if that is easily seen.
-  [[nodiscard]] bool surely_in_inside(const Rational3& x, const Monitor& monitor) const;
   /// True only if all points within the errors lie in the sum of the interior of one set and the other one, and of both
   /// interiors if both have one. In doubles (IntersectionQuery::surely_cross).
   [[nodiscard]] bool surely_in_inside(const Approximation3& x, IntersectionQuery::Crossings& recent, bool search,
                                       const Monitor& monitor) const;
+  /// The same of one point, by a search.
+  [[nodiscard]] bool surely_in_inside(const Rational3& x, const Monitor& monitor) const;
 
  private:
   [[nodiscard]] const IntersectionQuery& closures(const Monitor& monitor) const;

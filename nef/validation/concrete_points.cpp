@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nef/complex/concrete_points.h"
+#include "nef/validation/concrete_points.h"
 
 #include <algorithm>
 
@@ -65,14 +65,6 @@ std::vector<const Rational3*> cycle_points(const Complex& complex, const Indexed
     result.push_back(&points[complex.shalfedge_vertex(corner)]);
   }
   return result;
-}
-
-Projection projection_of(const PlaneTable& planes, PlaneId plane) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const int sign = planes.coefficient(plane, axis).sign();
-    if (sign != 0) return {axis, plane.flipped() ? -sign : sign};
-  }
-  return {};
 }
 
 }  // namespace nef

@@ -23,12 +23,4 @@ Winding winding_number(const std::vector<const Rational3*>& polygon, const Ratio
 std::vector<const Rational3*> cycle_points(const Complex& complex, const IndexedVector<VertexId, Rational3>& points,
                                            CycleId cycle);
 
-/// An axis along which the plane of a facet can be projected, and +1 or -1 as counterclockwise
-/// about the plane's normal is counterclockwise in the projection or not.
-struct Projection {
-  std::size_t axis = 0;
-  int sign = 1;
-};
-Projection projection_of(const PlaneTable& planes, PlaneId plane);
-
 }  // namespace nef

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Planes through points, in lowest terms without a division of long numbers.
+#pragma once
+
+#include "nef/geometry/plane_table.h"
+#include "nef/geometry/point_table.h"
+#include "nef/geometry/vectors.h"
+
+namespace nef {
+
+/// Interns planes through finite points. Keeps the memory of its numbers from plane to plane; one for each thread.
+class PlaneFinder {
+ public:
+  /// The plane through o of a normal, which is not zero; its positive side is where the normal points. O(1).
+  PlaneId through(PlaneTable& planes, const PointTable& points, const Integer3& normal, PointId o);
+
+  /// The plane of three points, seen counterclockwise from its positive side; no plane if they are on one line. O(1).
+  PlaneId through(PlaneTable& planes, const PointTable& points, PointId o, PointId p, PointId q);
+
+ private:
+  PlaneId with_normal(PlaneTable& planes, const PointTable& points, PointId o);
+
+  Integer3 u_, v_, n_;
+  Integer offset_;
+};
+
+/// The first of these planes, and the same in rationals.
+inline PlaneId plane_through(PlaneTable& planes, const PointTable& points, const Integer3& normal, PointId o) {
+  return PlaneFinder().through(planes, points, normal, o);
+}
+inline PlaneId plane_through(PlaneTable& planes, const Rational3& normal, const Rational3& point) {
+  return planes.intern(normal, Rational(-dot(normal, point)));
+}
+
+}  // namespace nef

@@ -21,7 +21,7 @@ using Json = GlbDocument::Json;
 class GlbWriter {
  public:
   explicit GlbWriter(const std::vector<Layer>& layers) : layers_(layers) {
-    if (const auto bounds = bounds_of(layers, false)) {
+    if (const auto bounds = bounds_of(layers, Framing::kAll)) {
       for (std::size_t i = 0; i < 3; ++i) center_[i] = (*bounds)[0][i] / 2 + (*bounds)[1][i] / 2;
     }
   }

@@ -61,10 +61,10 @@ FacetSide facet_side(const Scene& scene, const SceneFacet& facet, bool seen_from
   return {};
 }
 
-std::optional<std::array<Point, 2>> bounds_of(const std::vector<Layer>& layers, bool only_visible) {
+std::optional<std::array<Point, 2>> bounds_of(const std::vector<Layer>& layers, Framing framing) {
   std::optional<std::array<Point, 2>> result;
   for (const Layer& layer : layers) {
-    if (only_visible && !layer.visible) continue;
+    if (framing == Framing::kFocus && !layer.visible) continue;
     if (const auto bounds = layer.scene.bounds()) {
       for (const Point& corner : *bounds) {
         if (layer.motion.empty()) add_point(result, corner);
@@ -74,6 +74,10 @@ std::optional<std::array<Point, 2>> bounds_of(const std::vector<Layer>& layers, 
     for (const Polyline& line : layer.lines) {
       for (const Point& point : line.points) add_point(result, point);
     }
+  }
+  if (framing == Framing::kFocus && result) return result;
+  for (const Layer& layer : layers) {
+    if (framing == Framing::kFocus && !layer.visible) continue;
     for (const Photo& photo : layer.photos) {
       for (const Point& point : photo.corners) add_point(result, point);
       if (photo.eye) add_point(result, *photo.eye);

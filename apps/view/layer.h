@@ -72,8 +72,13 @@ struct FacetSide {
 };
 FacetSide facet_side(const Scene& scene, const SceneFacet& facet, bool seen_from_above);
 
-/// Smallest and largest coordinates of all layers (visible ones if `only_visible`), their lines and photos, wherever
-/// their motions take them; nothing if there is nothing.
-std::optional<std::array<Point, 2>> bounds_of(const std::vector<Layer>& layers, bool only_visible);
+/// What bounds_of looks at.
+enum class Framing : std::uint8_t {
+  kAll,   ///< all layers, their lines and photos
+  kFocus  ///< visible layers and their lines; photos, which stand far around a set, only if there is nothing else
+};
+
+/// Smallest and largest coordinates, wherever motions take the layers; nothing if there is nothing.
+std::optional<std::array<Point, 2>> bounds_of(const std::vector<Layer>& layers, Framing framing);
 
 }  // namespace nef::view

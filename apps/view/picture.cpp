@@ -267,7 +267,7 @@ Image draw_picture(const std::vector<Layer>& layers, const PictureOptions& optio
     throw InputError("from 0,0,0 is not a direction: give one that leads to the camera");
   const std::vector<Point> points = points_of(layers);
   Point middle{0, 0, 0};
-  if (const auto bounds = bounds_of(layers, true)) {
+  if (const auto bounds = bounds_of(layers, Framing::kFocus)) {
     for (std::size_t i = 0; i < 3; ++i) middle[i] = (*bounds)[0][i] / 2 + (*bounds)[1][i] / 2;
   }
   const PictureCamera camera(from, middle, points, static_cast<double>(options.width) * kFactor,

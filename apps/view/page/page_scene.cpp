@@ -33,17 +33,18 @@ void push_unit(std::vector<std::int16_t>& out, const std::array<double, 3>& v) {
 class SceneWriter {
  public:
   SceneWriter(const std::vector<Layer>& layers, const PageOptions& options) : layers_(layers), options_(options) {
-    if (const auto bounds = bounds_of(layers, false)) {
+    if (const auto bounds = bounds_of(layers, Framing::kAll)) {
       for (std::size_t i = 0; i < 3; ++i) center_[i] = (*bounds)[0][i] / 2 + (*bounds)[1][i] / 2;
     }
   }
 
   std::string run() {
     Json page{{"title", options_.title}, {"center", center_}, {"layers", Json::array()}};
-    if (const auto bounds = bounds_of(layers_, false)) {
+    if (const auto bounds = bounds_of(layers_, Framing::kAll)) {
       page["bounds"] = {relative((*bounds)[0]), relative((*bounds)[1])};
     }
-    if (const auto seen = bounds_of(layers_, true)) page["focus"] = {relative((*seen)[0]), relative((*seen)[1])};
+    if (const auto seen = bounds_of(layers_, Framing::kFocus))
+      page["focus"] = {relative((*seen)[0]), relative((*seen)[1])};
     for (std::size_t i = 0; i < layers_.size(); ++i) page["layers"].push_back(layer(i));
     const std::string json = page.dump(-1, ' ', false, Json::error_handler_t::replace);
     const std::array<std::uint32_t, 1> length{static_cast<std::uint32_t>(json.size())};

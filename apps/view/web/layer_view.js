@@ -123,6 +123,9 @@ export function dotMesh(dots, shared) {
 export const lineColor = (selected) => (selected ? INK : ORANGE);
 export const dotColors = (selected) => (selected ? { fill: INK, rim: INK } : { fill: WHITE, rim: ORANGE });
 
+// Edges shorter than this many pixels cover the facets between them.
+const DENSE = 5;
+
 // The mean length of the edges in pixels, about, when the whole page is seen: dense meshes get finer lines and dots.
 function meanLength(layer, radius) {
   const { ends } = layer.edges;
@@ -135,7 +138,8 @@ function meanLength(layer, radius) {
   return ends.length === 0 ? Infinity : (sum / (ends.length / 2) / radius) * 350;
 }
 
-function edgeSegments(layer, length) {
+// inColor: as what tells layers apart, where there are several and this one has no facets to show its colour.
+function edgeSegments(layer, length, inColor) {
   const { ends, mark, flags } = layer.edges;
   const { xyz } = layer.vertices;
   const at = (vertex) => xyz.subarray(3 * vertex, 3 * vertex + 3);
@@ -145,7 +149,7 @@ function edgeSegments(layer, length) {
     return {
       start: at(ends[2 * e]),
       end: at(ends[2 * e + 1]),
-      rgb: own ? lineColor(m) : GREY,
+      rgb: !own ? GREY : inColor && m ? rgbOf(layer.color) : lineColor(m),
       width: isolated(flags[e]) && own ? 3.2 : own ? usual : Math.min(usual, 1.1),
     };
   });
@@ -206,21 +210,31 @@ function extraSegments(layer) {
   return segments;
 }
 
+// Drawn after transparent facets, which would pale it; what is opaque still hides it.
+function shineThrough(mesh) {
+  mesh.material.transparent = true;
+  mesh.renderOrder = 1;
+  return mesh;
+}
+
 export class LayerView {
-  // radius: of the page, in which the layer is seen.
-  constructor(layer, shared, radius, onLoad) {
+  // radius: of the page, in which the layer is seen; alone: it is the only one.
+  constructor(layer, shared, radius, alone, onLoad) {
     const length = meanLength(layer, radius);
+    const thin = layer.facets.mark.length === 0;
+    this.dense = !thin && length < DENSE;
     this.layer = layer;
     this.opacity = { value: layer.opacity };
     this.group = new THREE.Group();
     this.facets = new THREE.Mesh(facetGeometry(layer), facetMaterial(shared, this.opacity));
     this.facets.frustumCulled = false;
-    this.edges = lineMesh(edgeSegments(layer, length), shared);
+    this.edges = lineMesh(edgeSegments(layer, length, thin && !alone), shared);
     this.vertices = dotMesh(vertexDots(layer, length), shared);
+    if (thin) [this.edges, this.vertices].forEach(shineThrough);
     this.extras = new THREE.Group();
     const segments = extraSegments(layer);
     if (layer.box) segments.push(...boxSegments(layer.box));
-    this.extras.add(lineMesh(segments, shared));
+    this.extras.add(shineThrough(lineMesh(segments, shared)));
     for (const photo of layer.photos) this.extras.add(photoMesh(photo, onLoad));
     this.group.add(this.facets, this.edges, this.vertices, this.extras);
     this.group.visible = layer.visible;

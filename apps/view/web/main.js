@@ -28,7 +28,8 @@ class Viewer {
     this.camera = new THREE.PerspectiveCamera(32, 1, 0.1, 100);
     this.shared = sharedUniforms();
     this.scene = new THREE.Scene();
-    this.views = page.layers.map((layer) => new LayerView(layer, this.shared, this.radius, () => this.requestDraw()));
+    const alone = page.layers.length === 1;
+    this.views = page.layers.map((layer) => new LayerView(layer, this.shared, this.radius, alone, () => this.requestDraw()));
     this.scene.add(...this.views.map((view) => view.group));
     this.section = new Section(this.views, this.shared, this.radius);
     this.section.addTo(this.scene);
@@ -174,6 +175,11 @@ class Viewer {
       this.requestDraw();
     };
     for (const box of show) box.addEventListener("change", update);
+    // Of a dense mesh the facets are seen first.
+    if (this.views.some((view) => view.dense && view.layer.visible)) {
+      show[1].checked = show[2].checked = false;
+      update();
+    }
     byId("close").addEventListener("click", () => this.select(null));
     byId("fold").addEventListener("click", () => byId("panel").classList.toggle("folded"));
     this.#makeSectionControls();

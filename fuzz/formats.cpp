@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/planner/path/path_file.h"
+#include "apps/planner/proofs/inseparable_proof.h"
 #include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid/pose_file.h"
 #include "apps/planner/scene/scene.h"
@@ -284,9 +285,25 @@ std::string proof_of_barrier(const Polyhedron& /*set*/, const std::string& /*tex
   {"robot": ["1"], "obstacle": ["0", "1", "0"]}, {"robot": ["1"], "obstacle": ["0", "0", "1"]}]}, {"corners": [3, 1, 0]}]}}})";
 }
 
+std::string proof_of_parts(const Polyhedron& /*set*/, const std::string& /*text*/) {
+  return R"({"claim": {"status": "inseparable", "parts": [
+    {"name": "a", "pieces": [[["0", "0", "0"], ["1", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]]]},
+    {"name": "b", "pieces": [[["0", "0", "0"], ["-1/2", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]]]}]}, "nef_proof": 1,
+  "witness": {"contacts": [{"first": [0, 0], "second": [1, 0], "common": {"first": ["1", "0", "0", "0"], "second": ["1", "0", "0", "0"]}}],
+  "octants": [{"edge": 2, "halves": [{"first_blocked": [0], "second_blocked": []}, {"first_blocked": [], "second_blocked": [0]}]},
+  {"first_blocked": [0], "second_blocked": [0]}, {"first_blocked": [], "second_blocked": []},
+  {"first_blocked": [], "second_blocked": []}, {"first_blocked": [], "second_blocked": []},
+  {"first_blocked": [], "second_blocked": []}, {"first_blocked": [], "second_blocked": []},
+  {"first_blocked": [], "second_blocked": []}]}})";
+}
+
 // Whatever the file says, the check of the proof must end.
 void read_proof_file(const std::string& text) {
   static_cast<void>(planner::complaint_about(planner::parse_proof(text, "file")));
+}
+
+void read_proof_of_parts(const std::string& text) {
+  static_cast<void>(planner::complaint_about(planner::parse_inseparable_proof(text, "file")));
 }
 
 std::vector<Format> other_formats() {
@@ -315,6 +332,7 @@ std::vector<Format> other_formats() {
       Format{"path-proof", proof_of_path, read_proof_file},
       Format{"collision-proof", proof_of_collision, read_proof_file},
       Format{"barrier-proof", proof_of_barrier, read_proof_file},
+      Format{"inseparable-proof", proof_of_parts, read_proof_of_parts},
       Format{"hull-scene", hull_scene,
              [](const std::string& text) {
                static_cast<void>(visual_hull::read_json_scene(text, "/nonexistent/scene.json"));

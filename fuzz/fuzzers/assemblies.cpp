@@ -2,7 +2,8 @@
 //
 // Assemblies of unit cubes: parts at random in a small block, and parts with play in pockets of a block, several of
 // which may have to move as one. The truth is a search over all sets of parts, each by unit steps on the lattice, which
-// lose nothing, since the free space of cubes on a lattice consists of closed cells of that lattice.
+// lose nothing, since the free space of cubes on a lattice consists of closed cells of that lattice. Verdicts and
+// proofs are asked of the same parts: what a part of cubes is blocked in is told by 26 directions.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -11,6 +12,8 @@
 #include <vector>
 
 #include "apps/planner/assembly/disassembly.h"
+#include "apps/planner/proofs/inseparable_proof.h"
+#include "apps/planner/verdict/verdict.h"
 #include "fuzz/fuzzer.h"
 #include "nef/construct/construct.h"
 
@@ -261,6 +264,95 @@ void compare_steps(const planner::Disassembly& answer, const LatticeTruth& truth
   Case::require(stuck == truth.stuck(), "inseparable: not what a search over all sets says");
 }
 
+// Whether cubes overlap others when they begin to move in one of the 26 directions: where they do, they have a side, an
+// edge or a corner in common, and the other cube begins on that side.
+bool blocked_at_once(const Cubes& moving, const Cubes& stay, const Cube& d) {
+  return std::any_of(moving.begin(), moving.end(), [&](const Cube& a) {
+    for (unsigned some = 1; some < 8; ++some) {  // moves by less than one cube along some of its axes
+      Cube b = a;
+      bool moves = true;
+      for (std::size_t k = 0; k < 3; ++k) {
+        if ((some >> k & 1U) == 0) continue;
+        moves = moves && d[k] != 0;
+        b[k] += d[k];
+      }
+      if (moves && stay.contains(b)) return true;
+    }
+    return false;
+  });
+}
+
+std::vector<Cube> all_directions() {
+  std::vector<Cube> result;
+  for (int x = -1; x <= 1; ++x) {
+    for (int y = -1; y <= 1; ++y) {
+      for (int z = -1; z <= 1; ++z) {
+        if (x != 0 || y != 0 || z != 0) result.push_back({x, y, z});
+      }
+    }
+  }
+  return result;
+}
+
+// True if some set of parts can begin to move.
+bool something_moves(const std::vector<Cubes>& parts) {
+  for (const Cube& d : all_directions()) {
+    for (PartMask moving = 1; moving + 1 < 1U << parts.size(); ++moving) {
+      bool blocked = false;
+      for (std::size_t a = 0; a < parts.size() && !blocked; ++a) {
+        for (std::size_t b = 0; b < parts.size() && !blocked; ++b) {
+          blocked = (moving >> a & 1U) != 0 && (moving >> b & 1U) == 0 && blocked_at_once(parts[a], parts[b], d);
+        }
+      }
+      if (!blocked) return true;
+    }
+  }
+  return false;
+}
+
+void compare_verdict(const planner::Assembly& assembly, const std::vector<Cubes>& parts) {
+  const planner::Verdict found = planner::verdict(assembly);
+  Case::require(!found.interferes(), "verdict: an overlap of cubes that do not");
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    Cubes others;
+    for (std::size_t j = 0; j < parts.size(); ++j) {
+      if (j != i) others.insert(parts[j].begin(), parts[j].end());
+    }
+    const planner::PartVerdict& judged = found.parts[i];
+    bool stuck = true;
+    for (const Cube& d : all_directions()) {
+      const bool free = !blocked_at_once(parts[i], others, d);
+      stuck = stuck && !free;
+      Case::require(contains(judged.first.cone, {Rational(d[0]), Rational(d[1]), Rational(d[2])}) == free,
+                    "verdict: another cone of first motions");
+    }
+    Case::require((judged.status == planner::PartVerdict::Status::kStuck) == stuck, "verdict: stuck or not");
+    if (judged.status != planner::PartVerdict::Status::kRemovable) continue;
+    const Rational3& d = *judged.direction;
+    const LatticeTruth truth(parts);
+    const PartMask all = (1U << parts.size()) - 1;
+    Case::require(
+        truth.is_free(1U << i, all & ~(1U << i), {{}, {Rational(99 * d[0]), Rational(99 * d[1]), Rational(99 * d[2])}}),
+        "verdict: a part is not removable");
+  }
+}
+
+void compare_proof(const planner::Assembly& assembly, const planner::Disassembly& answer,
+                   const std::vector<Cubes>& parts) {
+  for (const planner::Inseparable& stuck : answer.inseparable) {
+    std::vector<Cubes> of_them;
+    for (const std::size_t part : stuck.parts) of_them.push_back(parts[part]);
+    const bool moves = something_moves(of_them);
+    Case::require(stuck.nothing_moves == !moves, "inseparable: something moves, or not");
+    const std::optional<planner::InseparableProof> proof = planner::make_inseparable_proof(assembly, stuck.parts);
+    Case::require(proof.has_value() == !moves, "proof: there is one, or not");
+    if (!proof) continue;
+    const planner::InseparableProof read = planner::parse_inseparable_proof(planner::proof_text(*proof), "proof");
+    Case::require(!planner::complaint_about(read), "proof: does not hold");
+    Case::require(!planner::complaint_about(read, assembly), "proof: of other parts");
+  }
+}
+
 }  // namespace
 
 void fuzz_assemblies(const Case& the_case) {
@@ -281,6 +373,8 @@ void fuzz_assemblies(const Case& the_case) {
   Case::require(!answer.overlap, "overlap: of cubes that do not");
   Case::require(answer.undecided.empty(), "undecided: without anybody to stop it");
   compare_steps(answer, LatticeTruth(parts), parts.size());
+  compare_verdict(assembly, parts);
+  if (kind < 4 && parts.size() < 6) compare_proof(assembly, answer, parts);
   the_case.count(answer.inseparable.empty() ? "taken apart" : "stuck");
   for (const planner::DisassemblyStep& step : answer.steps) {
     if (!step.straight) the_case.count(step.parts.size() > 1 ? "planned steps of several parts" : "planned steps");

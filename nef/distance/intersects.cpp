@@ -245,6 +245,9 @@ class MeetingSearch {
     return found_;
   }
 
+  // After a run that found no common point.
+  [[nodiscard]] std::vector<std::array<ItemRef, 2>> contacts() const { return {contacts_.begin(), contacts_.end()}; }
+
  private:
   [[nodiscard]] const Side& side(std::size_t x) const { return *body_.sides[x]; }
 
@@ -495,6 +498,16 @@ bool IntersectionQuery::meet(const Rational3& translation, const Monitor& monito
     return !intersect(a, transform(b, AffineMap::translate(translation), monitor), monitor).is_empty();
   }
   return meeting::MeetingSearch<Body>(*body_, translation, monitor).run();
+}
+
+std::optional<std::vector<std::array<ItemRef, 2>>> IntersectionQuery::contacts(const Rational3& translation,
+                                                                               const Monitor& monitor) const {
+  const auto& [a, b] = body_->sets;
+  NEF_ASSERT(a.is_bounded() && b.is_bounded());
+  if (body_->sides.empty()) return std::vector<std::array<ItemRef, 2>>{};
+  meeting::MeetingSearch<Body> search(*body_, translation, monitor);
+  if (search.run()) return std::nullopt;
+  return search.contacts();
 }
 
 // Whether an edge of side x surely crosses the inside of a facet of the other one. In builds without fast paths, too:

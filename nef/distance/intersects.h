@@ -3,11 +3,14 @@
 // Whether two sets have a common point, one of them moved by a translation, without making their intersection.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "nef/base/monitor.h"
+#include "nef/complex/item_ref.h"
 #include "nef/forward.h"
 #include "nef/number/approximation.h"
 #include "nef/number/number.h"
@@ -26,6 +29,14 @@ class IntersectionQuery {
   /// common point. Bounded sets: O(k log n) for k pairs of an edge and a facet whose boxes meet, and one point location
   /// for each connected part of a boundary that touches nothing; otherwise one Boolean operation.
   [[nodiscard]] bool meet(const Rational3& translation, const Monitor& monitor = {}) const;
+
+  /// Where the boundaries of A and B + translation touch, if the two have no common point; nothing if they have one.
+  /// For each vertex of the arrangement of both boundaries that lies on both, the item of A and the item of B that
+  /// contain it: a vertex and any item, or an edge that crosses an edge or a facet; each pair once, edges named by the
+  /// smaller halfedge.
+  /// Both sets must be bounded. O(k log n) as `meet`.
+  [[nodiscard]] std::optional<std::vector<std::array<ItemRef, 2>>> contacts(const Rational3& translation = {},
+                                                                            const Monitor& monitor = {}) const;
 
   /// Pairs of an edge and a facet that crossed lately, which are likely to cross at the next translation, too.
   class Crossings {

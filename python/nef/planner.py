@@ -22,10 +22,14 @@ import numpy
 from . import _planner
 from ._nef import Polyhedron
 from .errors import Error, InputError
+from .mechanisms import (CheckedMotion, Hinge, Linkage, Overlap, PairVerdict, PartVerdict, RangeEnd, RangePart, Screw, Slider,
+                         Stop, Verdict, range_of_motion, verdict)
 
 Exact3 = Tuple[Fraction, Fraction, Fraction]
 
-__all__ = ["Cell", "CertifiedPath", "CollidingPose", "Component", "Plan", "Proof", "Rotation", "Scene", "Thinness", "TightPassage", "TurningProof", "read"]
+__all__ = ["Cell", "CertifiedPath", "CheckedMotion", "CollidingPose", "Component", "Hinge", "Linkage", "Overlap", "PairVerdict",
+           "PartVerdict", "Plan", "Proof", "RangeEnd", "RangePart", "Rotation", "Scene", "Screw", "Slider", "Stop", "Thinness",
+           "TightPassage", "TurningProof", "Verdict", "range_of_motion", "read", "verdict"]
 
 
 class Cell(NamedTuple):

@@ -159,9 +159,9 @@ class Motion:
 
 class PathClaim:
     def __init__(self, value):
-        status, contact, box, robot, obstacles, path = fields(value, "status", "contact", "box", "robot", "obstacles", "path")
-        require(status in list(CHECKS) and contact in ("allow", "forbid"), "unknown status, or rule of contact")
-        self.status, self.contact_allowed = status, contact == "allow"
+        _, contact, box, robot, obstacles, path = fields(value, "status", "contact", "box", "robot", "obstacles", "path")
+        require(contact in ("allow", "forbid"), "unknown rule of contact")
+        self.contact_allowed = contact == "allow"
         self.box = None if box is None else [numbers(corner, 3) for corner in items(box, 2)]
         self.robot, self.obstacles = pieces(robot), pieces(obstacles)
         require(self.robot, "the robot has no pieces")
@@ -320,7 +320,93 @@ def check_infeasible(claim, witness):
     return f"infeasible: {len(found)} triangles separate start and goal"
 
 
-CHECKS = {"path": check_free_path, "blocked": check_blocked_path, "infeasible": check_infeasible}
+# That no set of parts can begin to move: cones of directions in each of which all parts are tied together.
+
+def outer_planes(vectors):
+    """The outward normals of the planes through two of the vectors that have all of them on one side: those around the
+    cone that the vectors span, if that is neither flat nor all of space."""
+    found = []
+    for i, u in enumerate(vectors):
+        for v in vectors[:i]:
+            normal = cross(u, v)
+            sides = {sign(dot(normal, w)) for w in vectors}
+            if sides in ({0, -1}, {0, 1}):
+                found.append(normal if -1 in sides else minus([0, 0, 0], normal))
+    return found
+
+
+def check_contact(parts, contact):
+    """Two pieces with a point in common. The first one overlaps the second one as soon as it moves in a direction of the
+    inside of the cone of the vectors from the point to the second one and from the first one to the point. Returns both
+    parts and the normals around that cone."""
+    first, second, common = fields(contact, "first", "second", "common")
+    found = []
+    for piece, weights in zip((first, second), fields(common, "first", "second")):
+        part, place = items(piece, 2)
+        vertices = parts[index(part, len(parts))][index(place, len(parts[part]))]
+        found.append((part, vertices, weighted_sum(vertices, numbers(weights, len(vertices)), False)))
+    (a, piece, point), (b, other, same) = found
+    require(a != b and point == same, "two pieces have not the point in common")
+    normals = outer_planes([minus(vertex, point) for vertex in other] + [minus(point, vertex) for vertex in piece])
+    require(normals, "two pieces of a contact overlap, or are flat")
+    return a, b, normals
+
+
+def reaches_all(count, ties, start):
+    """Whether all parts are reached from the first one, by ties from their end `start` to the other one."""
+    known, waiting = {0}, [0]
+    while waiting:
+        part = waiting.pop()
+        new = {tie[1 - start] for tie in ties if tie[start] == part} - known
+        known |= new
+        waiting += new
+    return len(known) == count
+
+
+def check_cone(count, contacts, cone, corners):
+    """In all directions that three vectors span, each set of parts is blocked by another part. Returns the number of
+    cones that are not cut."""
+    if isinstance(cone, dict) and "edge" in cone:
+        edge, halves = fields(cone, "edge", "halves")
+        after = (index(edge, 3) + 1) % 3
+        middle = [x + y for x, y in zip(corners[edge], corners[after])]
+        first, second = items(halves, 2)
+        return sum(check_cone(count, contacts, half, [middle if k == end else corner for k, corner in enumerate(corners)])
+                   for half, end in ((first, after), (second, edge)))
+    ties = []
+    for way, blocked in zip((1, -1), fields(cone, "first_blocked", "second_blocked")):
+        for contact in items(blocked):
+            a, b, normals = contacts[index(contact, len(contacts))]
+            require(all(way * dot(normal, corner) < 0 for normal in normals for corner in corners),
+                    "a contact does not block all directions of a cone")
+            ties.append((a, b)[::way])
+    require(all(reaches_all(count, ties, start) for start in (0, 1)), "in some directions a set of parts is not blocked")
+    return 1
+
+
+def check_inseparable(claim, witness):
+    _, named = fields(claim, "status", "parts")
+    names, parts = [], []
+    for part in items(named):
+        name, its_pieces = fields(part, "name", "pieces")
+        require(isinstance(name, str) and name not in names, "parts have names, each its own")
+        names.append(name)
+        parts.append(pieces(its_pieces))
+    require(len(parts) > 1, "the claim has less than two parts")
+    given, octants = fields(witness, "contacts", "octants")
+    contacts = [check_contact(parts, contact) for contact in items(given)]
+    cones = sum(check_cone(len(parts), contacts, cone,
+                           [[(-1 if octant >> k & 1 else 1) if i == k else 0 for i in range(3)] for k in range(3)])
+                for octant, cone in enumerate(items(octants, 8)))
+    return f"inseparable: no set of {len(parts)} parts can begin to move, in {cones} cones of directions"
+
+
+def of_path(check_witness):
+    return lambda claim, witness: check_witness(PathClaim(claim), witness)
+
+
+CHECKS = {"path": of_path(check_free_path), "blocked": of_path(check_blocked_path),
+          "infeasible": of_path(check_infeasible), "inseparable": check_inseparable}
 
 
 def check(text, claim_digest=None):
@@ -333,8 +419,9 @@ def check(text, claim_digest=None):
     require(type(version) is int and version == 1, "unknown version of the format")
     digest = hashlib.sha256(json.dumps(claim, sort_keys=True, separators=(",", ":")).encode()).hexdigest()
     require(claim_digest in (None, digest), f"this proves another claim, {digest}")
-    path = PathClaim(claim)
-    return CHECKS[path.status](path, witness), digest
+    status = claim.get("status") if isinstance(claim, dict) else None
+    require(isinstance(status, str) and status in CHECKS, "unknown status")
+    return CHECKS[status](claim, witness), digest
 
 
 def main():

@@ -1,38 +1,45 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Which part is in the way of which, when it moves straight: the directional blocking graphs of an assembly
-// [Wilson, Latombe 1994], from the sums of pairs.
+// [Wilson, Latombe 1994].
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "apps/planner/free_space/hulls_apart.h"
+#include "apps/planner/assembly/contact_cones.h"
+#include "apps/planner/assembly/entry_faces.h"
 #include "nef/base/monitor.h"
+#include "nef/mesh/mesh.h"
 #include "nef/polyhedron.h"
 
 namespace nef::planner {
 
-/// Part a overlaps part b when moved by the vectors of an open set, the union of the interiors of convex bodies: sums
-/// of convex pieces of b and of -a. All answers are exact. Bodies are made when a question needs them, so an object
-/// belongs to one thread.
+/// Answers about pairs of parts, all exact: from the places where they touch for the beginning of a motion, and from
+/// the projections of their faces for motions to infinity. What a question needs is made when it is asked, and kept, so
+/// an object belongs to one thread.
 class Blocking {
  public:
-  /// The parts must be bounded solids. O(parts) boxes and decompositions into convex pieces.
+  /// The parts must be bounded solids. O(n).
   Blocking(const std::vector<Polyhedron>& parts, const Monitor& monitor);
 
   [[nodiscard]] std::size_t size() const { return boxes_.size(); }
+  /// The box around a part.
+  [[nodiscard]] const std::array<Rational3, 2>& box(std::size_t part) const { return boxes_[part]; }
+  [[nodiscard]] const Polyhedron& interior(std::size_t part) const { return interiors_[part]; }
   /// Two parts whose interiors meet where they are; nothing if there are none.
   std::optional<std::pair<std::size_t, std::size_t>> overlapping();
-  /// True if a overlaps b somewhere on its way along the ray of direction d.
+  /// How two parts touch, a < b, and what blocks a; nothing if they overlap.
+  const std::optional<ContactCones>& contact(std::size_t a, std::size_t b);
+  /// True if a overlaps b somewhere on its way along the ray of direction d. No parts may overlap where they are.
   bool blocks(std::size_t a, std::size_t b, const Rational3& d);
   /// True if a overlaps b as soon as it moves in direction d, however little.
   bool blocks_at_once(std::size_t a, std::size_t b, const Rational3& d);
-  /// What keeps a from beginning to move: open cones of directions, each the set where all of its normals n have
-  /// n * d < 0. Their union is what is forbidden.
-  std::vector<std::vector<Rational3>> blocked_cones(std::size_t a);
+  /// The directions in which b keeps a from beginning to move.
+  std::vector<OpenCone> blocked_cones(std::size_t a, std::size_t b);
   /// Directions such that whatever set of parts may begin to move in some direction may begin to move in one of these:
   /// the vertices of the arrangement on the sphere of the planes in which parts touch, and of the coordinate planes.
   /// (In a direction next to a vertex no fewer parts block than at it, since what blocks is open.) In order of their
@@ -40,26 +47,17 @@ class Blocking {
   std::optional<std::vector<Rational3>> directions();
 
  private:
-  struct Body {
-    std::vector<HalfSpace> faces;
-    [[nodiscard]] bool meets_ray(const Rational3& d) const;
-    [[nodiscard]] bool meets_start(const Rational3& d) const;
-    [[nodiscard]] bool holds_origin(bool inside) const;
-  };
-  struct Pair {
-    Body box;  // around all bodies
-    std::optional<std::vector<Body>> bodies;
-  };
-
-  // The pair a < b, and its bodies.
-  Pair& pair(std::size_t a, std::size_t b) { return pairs_[a * size() + b]; }
-  const std::vector<Body>& bodies(std::size_t a, std::size_t b);
-  [[nodiscard]] Body box_body(std::size_t a, std::size_t b) const;
+  [[nodiscard]] bool boxes_meet(std::size_t a, std::size_t b) const;
+  [[nodiscard]] bool box_meets_ray(std::size_t a, std::size_t b, const Rational3& d) const;
+  const EntryFaces& entry_faces(std::size_t part, const Rational3& d);
 
   Monitor monitor_;
+  std::vector<Polyhedron> interiors_;
   std::vector<std::array<Rational3, 2>> boxes_;
-  std::vector<std::vector<std::vector<Rational3>>> pieces_;  // of each part: the vertices of its convex pieces
-  std::vector<Pair> pairs_;
+  std::vector<std::optional<std::optional<ContactCones>>> contacts_;  // of each pair a < b
+  std::vector<std::optional<Mesh>> meshes_;
+  Rational3 direction_;  // of the faces below
+  std::map<std::size_t, EntryFaces> faces_;
 };
 
 }  // namespace nef::planner

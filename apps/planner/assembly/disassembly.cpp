@@ -41,9 +41,7 @@ class TakingApart {
         digits_(digits),
         told_(monitor),
         monitor_(monitor.quiet()),
-        blocking_(assembly.parts, monitor_) {
-    for (const Polyhedron& part : assembly.parts) boxes_.push_back(*bounding_box(part));
-  }
+        blocking_(assembly.parts, monitor_) {}
 
   Disassembly run() {
     std::vector<PartSet> together{all_parts(assembly_)};
@@ -149,9 +147,9 @@ class TakingApart {
   }
 
   [[nodiscard]] std::array<Rational3, 2> box_of(const PartSet& parts) const {
-    std::array<Rational3, 2> box = boxes_[parts.front()];
+    std::array<Rational3, 2> box = blocking_.box(parts.front());
     for (const std::size_t part : parts) {
-      const std::array<Rational3, 2>& other = boxes_[part];
+      const std::array<Rational3, 2>& other = blocking_.box(part);
       for (std::size_t i = 0; i < 3; ++i) {
         box[0][i] = std::min(box[0][i], other[0][i]);
         box[1][i] = std::max(box[1][i], other[1][i]);
@@ -297,7 +295,6 @@ class TakingApart {
   Monitor monitor_;
   std::size_t proved_below_ = 1;  // of the parts that are looked at
   Blocking blocking_;
-  std::vector<std::array<Rational3, 2>> boxes_;  // of the parts
   std::vector<Rational3> directions_;
   bool tells_all_ = false;  // if nothing begins to move in these directions, then in no other one
   std::map<std::pair<std::size_t, std::size_t>, std::optional<Polyhedron>> free_of_pairs_;

@@ -1,25 +1,105 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Each stop forbids the inside of a cone, so what is free is an intersection of unions of half-spaces. Most stops are
+// half-spaces themselves, and most of these superfluous: what they leave is the polar of the cone that their normals
+// span, which the faces of the hull of the normals and the origin tell that pass through the origin.
 #include "apps/planner/assembly/free_directions.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
-#include "apps/planner/assembly/blocking.h"
+#include "apps/minkowski/minkowski.h"
+#include "nef/geometry/vectors.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
 namespace nef::planner {
+namespace {
 
-FreeDirections free_directions(const Assembly& assembly, std::size_t part, const Monitor& monitor) {
+// Normals that span the same cone as all: no more are looked for if the cone is not flat and has few facets.
+std::set<Integer3> spanning(const std::set<Integer3>& normals, const Monitor& monitor) {
+  constexpr std::size_t kFew = 4;
+  if (normals.size() <= kFew) return normals;
+  std::vector<Rational3> points{Rational3{}};
+  for (const Integer3& n : normals) points.push_back(to_rational(n));
+  const minkowski::ConvexCell hull = minkowski::hull_cell(points, monitor);
+  const Mesh& mesh = hull.mesh;
+  std::set<Rational3> corners(mesh.vertices.begin(), mesh.vertices.end());
+  if (hull.dimension == 3) {
+    std::set<Rational3> at_origin;
+    // With the origin inside, the cone is all of space; often four normals tell: one, and a triangle opposite to it.
+    std::set<Rational3> around;
+    for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+      const auto face = mesh.face(f);
+      const auto corner = [&](std::size_t i) -> const Rational3& { return mesh.vertices[face[i]]; };
+      const Rational3 normal = cross(minus(corner(1), corner(0)), minus(corner(2), corner(0)));
+      if (dot(normal, corner(0)) == 0) {
+        for (std::size_t i = 0; i < face.size(); ++i) at_origin.insert(corner(i));
+        // The cone of one face through the origin is a half-space, which takes a vector beside the face, too.
+        const auto beside = [&](const Rational3& n) { return dot(normal, n) < 0; };
+        at_origin.insert(*std::find_if(mesh.vertices.begin(), mesh.vertices.end(), beside));
+      }
+      for (std::size_t i = 1; i + 1 < face.size() && around.empty(); ++i) {
+        const std::array triangle{corner(0), corner(i), corner(i + 1)};
+        for (const Rational3& n : mesh.vertices) {
+          const auto left_of = [&](std::size_t k) { return dot(cross(triangle[k], triangle[(k + 1) % 3]), n) < 0; };
+          if (!left_of(0) || !left_of(1) || !left_of(2)) continue;
+          around = {triangle.begin(), triangle.end()};
+          around.insert(n);
+          break;
+        }
+      }
+    }
+    if (!at_origin.empty()) {
+      corners = at_origin;
+    } else if (!around.empty()) {
+      corners = around;
+    }
+  }
+  std::set<Integer3> result;
+  for (const Integer3& n : normals) {
+    if (corners.contains(to_rational(n))) result.insert(n);
+  }
+  return result;
+}
+
+// The directions in which the stops begin to be in the way of a part.
+std::vector<FreeDirections::Stop> stops_of(Blocking& blocking, std::size_t part, const Monitor& monitor) {
+  std::vector<FreeDirections::Stop> stops;
+  std::map<Integer3, std::size_t> half_spaces;  // and the first part that forbids each
+  for (std::size_t other = 0; other < blocking.size(); ++other) {
+    if (other == part) continue;
+    for (OpenCone& cone : blocking.blocked_cones(part, other)) {
+      if (cone.size() == 1) {
+        half_spaces.try_emplace(cone.front(), other);
+      } else {
+        stops.push_back({other, std::move(cone)});
+      }
+    }
+  }
+  std::set<Integer3> normals;
+  for (const auto& [normal, other] : half_spaces) normals.insert(normal);
+  for (const Integer3& normal : spanning(normals, monitor)) stops.push_back({half_spaces.at(normal), {normal}});
+  return stops;
+}
+
+}  // namespace
+
+FreeDirections free_directions(Blocking& blocking, std::size_t part, const Monitor& monitor) {
+  FreeDirections result;
+  result.stops = stops_of(blocking, part, monitor);
   const Polyhedron cube = make_box({-1, -1, -1}, {1, 1, 1}, monitor);
   std::vector<Polyhedron> allowed{cube};
-  // What one body forbids is the inside of a cone: the part may go where it leaves one of its faces alone.
-  for (const std::vector<Rational3>& normals : Blocking(assembly.parts, monitor).blocked_cones(part)) {
+  for (const FreeDirections::Stop& stop : result.stops) {
     std::vector<Polyhedron> sides;
-    for (const Rational3& n : normals)
-      sides.push_back(intersect(cube, make_halfspace(-n[0], -n[1], -n[2], Rational(0), true, monitor), monitor));
+    for (const Integer3& n : stop.directions) {
+      sides.push_back(
+          intersect(cube, make_halfspace(Rational(-n[0]), Rational(-n[1]), Rational(-n[2]), Rational(0), true, monitor),
+                    monitor));
+    }
     allowed.push_back(unite_all(sides, monitor));
   }
-  FreeDirections result;
-  result.everything = allowed.size() == 1;
+  result.everything = result.stops.empty();
   result.cone = intersect_all(allowed, monitor);
   const Location apex = locate(result.cone, Rational3{});
   if (result.everything || apex.kind == Location::Kind::kVolume) {
@@ -43,6 +123,11 @@ FreeDirections free_directions(const Assembly& assembly, std::size_t part, const
   }
   std::sort(result.rays.begin(), result.rays.end());
   return result;
+}
+
+FreeDirections free_directions(const Assembly& assembly, std::size_t part, const Monitor& monitor) {
+  Blocking blocking(assembly.parts, monitor);
+  return free_directions(blocking, part, monitor);
 }
 
 }  // namespace nef::planner

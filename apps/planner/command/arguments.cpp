@@ -34,6 +34,7 @@ Exit codes: 0 a path; 1 proved that there is none (with --path: the given path l
 (--time, --max-cells).
 With --assembly: 0 a sequence, 1 inseparable, 3 parts overlap, 5 undecided within the --time.
 With --range: 0, 5 undecided.
+With --verdict: 0, 3 parts overlap, 5 a range is undecided.
 --manifold, --recenter and --lenient are for the meshes that --free-directions writes; .glb scenes and animations are always
 placed about their middle.
 --tight without -o only lists: it exits with 0 whatever the answer. --queries exits with the largest code of all.
@@ -48,6 +49,7 @@ Examples:
   planner scene.json --check-proof given.proof
   planner --assembly parts.json --page apart.html
   planner --range mechanism.json --json
+  planner --verdict parts.json --json
   planner scene.json --widest --precision 1/100
   planner scene.json --keep-clear 0.1 --speed 2 --acceleration 5 -o path.csv
   planner scene.json --ompl RRTConnect --time 5
@@ -88,11 +90,14 @@ std::vector<Exclusion> exclusions() {
       {"--range",
        {kScene.data(), "--assembly", "--path", "--queries", "--page", "--tight", "--widest", "--widest-box", "--proof",
         "--check-proof"}},
+      {"--verdict",
+       {kScene.data(), "--assembly", "--range", "--path", "--queries", "--page", "--tight", "--widest", "--widest-box",
+        "--proof", "--check-proof", "--time"}},
       {"--assembly",
-       {kScene.data(), "--start",     "--goal",   "--contact",       "--tight",      "--path",  "--queries",
-        "--ompl",      "--benchmark", "--widest", "--widest-box",    "--keep-clear", "--speed", "--prefer",
-        "--clearance", "--raw",       "--quick",  "--min-dimension", "--se3",        "--proof", "--check-proof"}},
-      {"--free-directions", {"--digits"}},
+       {kScene.data(), "--start", "--goal", "--contact", "--tight", "--path", "--queries", "--ompl", "--benchmark",
+        "--widest", "--widest-box", "--keep-clear", "--speed", "--prefer", "--clearance", "--raw", "--quick",
+        "--min-dimension", "--se3"}},
+      {"--free-directions", {"--digits", "--proof", "--check-proof"}},
       {"--benchmark", {"--ompl"}},
       {"--path", {"--ompl", "--benchmark"}},
       {"--queries", {"--path", "--page", "--ompl", "--benchmark"}},
@@ -114,6 +119,7 @@ std::string dotted(const std::vector<const char*>& extensions) {
 // Files of answers other than cones of directions, which are sets.
 void check_outputs(const Arguments& a) {
   if (!a.range.empty()) require_extensions(a, "with --range", {"json"});
+  if (!a.verdict.empty()) require_extensions(a, "with --verdict", {"json"});
   if (!a.queries.empty()) require_extensions(a, "with --queries", {"json"});
   if (!a.assembly.empty()) require_extensions(a, "with --assembly", {"json", "html", "glb"});
   for (const std::string& file : a.outputs) {
@@ -147,7 +153,8 @@ void check_usage(const Arguments& a) {
   for (const auto& [option, others] : exclusions()) {
     if (a.app->count(option) > 0) exclude(a, option, others);
   }
-  if (a.range.empty() && a.assembly.empty() && a.scene.empty()) {
+  if (a.exact && a.verdict.empty()) throw InputError("--exact is for --verdict");
+  if (a.range.empty() && a.assembly.empty() && a.verdict.empty() && a.scene.empty()) {
     throw InputError("scene is required: planner SCENE, or planner --assembly PARTS.json");
   }
   if (!a.page.empty() && lower_extension(a.page) != "html") {
@@ -174,6 +181,11 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--range", a.range,
                  "The angles or strokes of a mechanism (.json) with one moving part that are free, touching, colliding")
       ->type_name("FILE");
+  app.add_option("--verdict", a.verdict,
+                 "Judge the parts of an assembly or a mechanism (.json) where they are: overlaps, gaps, contacts, what "
+                 "can be removed, and the range of motion")
+      ->type_name("FILE");
+  app.add_flag("--exact", a.exact, "With --verdict: exact volumes of overlaps, which may have thousands of digits");
   app.add_option("-o,--output", a.outputs,
                  "Write the answer: .json report, .path (OMPL matrix), .glb (animated glTF), .csv (time stamps), else "
                  "text; may be repeated")
@@ -208,12 +220,14 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_flag("--clearance", a.path.clearance, "Way-points inside volumes rather than in contact");
   app.add_flag("--se3", a.se3, "Path matrix with seven columns x y z qx qy qz qw");
   app.add_option("--max-cells", a.max_cells, "A robot that turns: cut its angles into so many cells at most");
-  app.add_option("--proof", a.proof,
-                 "Write a proof that the path is free, that it collides, or that there is none (.proof)")
+  app.add_option(
+         "--proof", a.proof,
+         "Write a proof that the path is free, that it collides, or that there is none, or with --assembly that "
+         "nothing can begin to move (.proof)")
       ->type_name("FILE");
   app.add_option("--check-proof", a.check_proof,
-                 "Verify a .proof file, or of a robot that turns the proof in a report, against the scene (exit code "
-                 "0: it holds, 1: it does not)")
+                 "Verify a .proof file, or of a robot that turns the proof in a report, against the scene or assembly "
+                 "(exit code 0: it holds, 1: it does not)")
       ->type_name("FILE");
   declare_clearance(app, a);
   declare_ompl(app, a);

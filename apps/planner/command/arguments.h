@@ -25,6 +25,8 @@ struct Arguments {
   std::string assembly;
   std::string free_directions;
   std::string range;
+  std::string verdict;
+  bool exact = false;
   std::vector<std::string> outputs;
   std::string page;
   std::string start;

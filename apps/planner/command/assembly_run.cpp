@@ -13,6 +13,7 @@
 #include "apps/planner/command/findings.h"
 #include "apps/planner/command/report.h"
 #include "apps/planner/command/scene_view.h"
+#include "apps/planner/proofs/inseparable_proof.h"
 #include "apps/program/exact_json.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
@@ -137,13 +138,14 @@ int tell_free_directions(const Arguments& a, const Assembly& assembly) {
   if (found == assembly.names.end()) {
     throw InputError("--free-directions " + a.free_directions + ": " + a.assembly + " has no such part");
   }
-  if (const auto overlap = Blocking(assembly.parts, a.session.monitor).overlapping()) {
+  Blocking blocking(assembly.parts, a.session.monitor);
+  if (const auto overlap = blocking.overlapping()) {
     throw InputError(a.assembly + ": " + assembly.names[overlap->first] + " and " + assembly.names[overlap->second] +
                      " overlap");
   }
   const Stopwatch watch;
   const FreeDirections free =
-      free_directions(assembly, static_cast<std::size_t>(found - assembly.names.begin()), a.session.monitor);
+      free_directions(blocking, static_cast<std::size_t>(found - assembly.names.begin()), a.session.monitor);
   json rays = json::array();
   for (const Integer3& ray : free.rays) {
     rays.push_back({ray[0].get_str(), ray[1].get_str(), ray[2].get_str()});
@@ -167,6 +169,36 @@ int tell_free_directions(const Arguments& a, const Assembly& assembly) {
   };
   tell(a, {"free_directions", assembly.name, report, {{"op", watch.seconds(), {}}}, print_cone});
   return 0;
+}
+
+// The proof that nothing of the first parts that are stuck can begin to move.
+void write_proof(const Arguments& a, const Disassembly& answer, const Assembly& assembly) {
+  if (a.proof.empty()) return;
+  if (answer.inseparable.empty()) {
+    throw InputError("--proof " + a.proof + ": there are proofs of parts that are inseparable, and none of these are");
+  }
+  const std::optional<InseparableProof> proof =
+      make_inseparable_proof(assembly, answer.inseparable.front().parts, a.session.monitor);
+  if (!proof) {
+    throw InputError(
+        "--proof " + a.proof +
+        ": there are proofs that no set of parts can begin to move, and one of these can, though none leaves");
+  }
+  write_file(a.proof, proof_text(*proof));
+  if (answer.inseparable.size() > 1) {
+    a.session.note(a.proof + " is about " + list_of(answer.inseparable.front().parts, assembly) + " only");
+  }
+}
+
+int check_assembly_proof(const Arguments& a, const Assembly& assembly) {
+  const Stopwatch watch;
+  const InseparableProof proof = parse_inseparable_proof(read_file(a.check_proof), a.check_proof);
+  std::optional<std::string> complaint = complaint_about(proof);
+  if (!complaint) complaint = complaint_about(proof, assembly, a.session.monitor);
+  std::string names;
+  for (const InseparableProof::Part& part : proof.parts) names += (names.empty() ? "" : ", ") + part.name;
+  return tell_check(a, assembly.name, {{"assembly", assembly.name}, {"claim", "inseparable"}}, complaint,
+                    ": inseparable, " + names, watch);
 }
 
 json assembly_json(const Disassembly& answer, const Assembly& assembly) {
@@ -198,6 +230,7 @@ int run_assembly(const Arguments& a) {
   const Assembly assembly = read_assembly(a.assembly, a.session.mesh);
   a.session.note_all(assembly.messages);
   if (!a.free_directions.empty()) return tell_free_directions(a, assembly);
+  if (!a.check_proof.empty()) return check_assembly_proof(a, assembly);
   const Disassembly answer = take_apart(assembly, a.path.digits, limit.monitor());
   tell(a, {"assembly",
            assembly.name,
@@ -206,6 +239,7 @@ int run_assembly(const Arguments& a) {
            [&] { print(answer, assembly); },
            nullptr,
            [&] { return layers_of(answer, assembly); }});
+  write_proof(a, answer, assembly);
   if (answer.overlap) return 3;
   if (!answer.inseparable.empty()) return 1;
   return answer.undecided.empty() ? 0 : 5;

@@ -81,18 +81,14 @@ void write_translation_proof(const Arguments& a, const Scene& scene, const FreeS
   write_path_proof(a, checker, poses, known);
 }
 
-int tell_check(const Arguments& a, const Scene& scene, const std::optional<std::string>& complaint,
-               const nlohmann::json& found, const std::string& what_holds, const Stopwatch& watch) {
-  const auto report = [&] {
-    nlohmann::json all{{"scene", scene.name}, {"holds", !complaint}};
-    all.update(found);
-    if (complaint) all["complaint"] = *complaint;
-    return all;
-  };
+int tell_check(const Arguments& a, const std::string& title, nlohmann::json found,
+               const std::optional<std::string>& complaint, const std::string& what_holds, const Stopwatch& watch) {
+  found["holds"] = !complaint;
+  if (complaint) found["complaint"] = *complaint;
   const auto print = [&] {
     std::cout << (complaint ? "the proof does not hold: " + *complaint : "the proof holds" + what_holds) << '\n';
   };
-  tell(a, {"check_proof", scene.name, report, {{"op", watch.seconds(), {}}}, print});
+  tell(a, {"check_proof", title, [&] { return found; }, {{"op", watch.seconds(), {}}}, print});
   return complaint ? 1 : 0;
 }
 
@@ -108,7 +104,7 @@ std::optional<int> run_check_proof(const Arguments& a, const Scene& scene) {
     complaint = "it is about another path than " + a.given_path;
   }
   const std::string claim = status_word(proof.claim.status);
-  return tell_check(a, scene, complaint, {{"claim", claim}}, ": " + claim, watch);
+  return tell_check(a, scene.name, {{"scene", scene.name}, {"claim", claim}}, complaint, ": " + claim, watch);
 }
 
 }  // namespace nef::planner

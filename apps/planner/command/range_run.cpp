@@ -19,10 +19,6 @@ namespace {
 
 using nlohmann::json;
 
-const char* status_text(RangeStatus status) {
-  return std::array{"free", "touching", "colliding", "undecided"}.at(static_cast<std::size_t>(status));
-}
-
 const char* joint_text(Joint::Kind kind) {
   return std::array{"hinge", "slider", "screw"}.at(static_cast<std::size_t>(kind));
 }
@@ -60,7 +56,9 @@ std::string stops_text(const RangeEnd& end, const Mechanism& m) {
   return text + ")";
 }
 
-void print(const RangeOfMotion& range, const Mechanism& m) {
+}  // namespace
+
+void print_range(const RangeOfMotion& range, const Mechanism& m) {
   const bool slides = m.joint.kind() == Joint::Kind::kSlider;
   const auto at = [&](const RangeEnd& end) {
     std::string text;
@@ -68,7 +66,7 @@ void print(const RangeOfMotion& range, const Mechanism& m) {
     return text;
   };
   for (const RangePart& part : range.parts) {
-    std::cout << status_text(part.status);
+    std::cout << status_name(part.status);
     if (compare(part.from.value, part.to.value) == 0) {
       std::cout << " at " << at(part.from);
     } else {
@@ -85,14 +83,17 @@ json range_json(const RangeOfMotion& range, const Mechanism& m) {
       {"mechanism", m.name}, {"joint", joint_text(m.joint.kind())}, {"fixed", m.fixed_names}, {"parts", json::array()}};
   for (const RangePart& part : range.parts) {
     result["parts"].push_back(
-        {{"status", status_text(part.status)}, {"from", end_json(part.from, m)}, {"to", end_json(part.to, m)}});
+        {{"status", status_name(part.status)}, {"from", end_json(part.from, m)}, {"to", end_json(part.to, m)}});
   }
   result["cells"] = range.cells;
   result["events"] = range.events;
   return result;
 }
 
-}  // namespace
+bool is_undecided(const RangeOfMotion& range) {
+  return std::any_of(range.parts.begin(), range.parts.end(),
+                     [](const RangePart& part) { return part.status == RangeStatus::kUndecided; });
+}
 
 int run_range(const Arguments& a) {
   const TimeLimit limit(a.time, a.session.monitor);
@@ -109,10 +110,8 @@ int run_range(const Arguments& a) {
            mechanism.name,
            [&] { return range_json(range, mechanism); },
            {{"setup", setup_s, {}}, {"op", limit.passed() - setup_s, {}}},
-           [&] { print(range, mechanism); }});
-  const bool open = std::any_of(range.parts.begin(), range.parts.end(),
-                                [](const RangePart& part) { return part.status == RangeStatus::kUndecided; });
-  return open ? 5 : 0;
+           [&] { print_range(range, mechanism); }});
+  return is_undecided(range) ? 5 : 0;
 }
 
 }  // namespace nef::planner

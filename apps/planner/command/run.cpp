@@ -44,6 +44,7 @@ int run(const Arguments& a) {
   check_usage(a);
   a.session.mesh.monitor = a.session.monitor;
   if (!a.range.empty()) return run_range(a);
+  if (!a.verdict.empty()) return run_verdict(a);
   if (!a.assembly.empty()) return run_assembly(a);
   Scene scene = scene_of(a);
   if (const std::optional<int> code = run_check_proof(a, scene)) return *code;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/planner/command/arguments.h"
+#include "apps/planner/mechanism/range_of_motion.h"
 #include "apps/planner/path/answer.h"
 #include "apps/planner/proofs/path_proof.h"
 #include "apps/planner/scene/scene.h"
@@ -25,6 +26,15 @@ int run_command(int argc, char** argv);
 
 /// --range: the range of motion of a joint. Exit codes: 0, or 5 if a part of the range is undecided.
 int run_range(const Arguments& a);
+/// The keys of a report on a range: mechanism, joint, parts.
+nlohmann::json range_json(const RangeOfMotion& range, const Mechanism& mechanism);
+/// A line for each part of a range.
+void print_range(const RangeOfMotion& range, const Mechanism& mechanism);
+/// True if a part of a range is undecided.
+bool is_undecided(const RangeOfMotion& range);
+
+/// --verdict: judges the parts of an assembly or a mechanism. 0, 3 parts overlap, 5 a range is undecided.
+int run_verdict(const Arguments& a);
 
 /// --assembly: takes it apart. 0 a sequence, 1 inseparable, 3 parts overlap, 5 undecided.
 int run_assembly(const Arguments& a);
@@ -63,8 +73,8 @@ void write_translation_proof(const Arguments& a, const Scene& scene, const FreeS
 
 /// Prints what came of checking a proof: `complaint` is what does not hold, and `found` joins the report. Returns the
 /// exit code: 0, it holds, 1, it does not.
-int tell_check(const Arguments& a, const Scene& scene, const std::optional<std::string>& complaint,
-               const nlohmann::json& found, const std::string& what_holds, const Stopwatch& watch);
+int tell_check(const Arguments& a, const std::string& title, nlohmann::json found,
+               const std::optional<std::string>& complaint, const std::string& what_holds, const Stopwatch& watch);
 
 /// A robot that turns, to look at: layers as those of scene_layers; its farthest point is about as fast in turns as in
 /// translations.

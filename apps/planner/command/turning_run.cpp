@@ -154,7 +154,8 @@ int check_proof(const Arguments& a, const Scene& scene) {
   const TurningProof proof = read_turning_proof(a.check_proof);
   const std::optional<std::string> complaint = complaint_about(proof, scene, question_of(scene));
   const std::size_t cells = proof.cells.size();
-  return tell_check(a, scene, complaint, {{"cells", cells}}, ", " + std::to_string(cells) + " cells of angles", watch);
+  return tell_check(a, scene.name, {{"scene", scene.name}, {"cells", cells}}, complaint,
+                    ", " + std::to_string(cells) + " cells of angles", watch);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/planner/assembly/parts.h"
 #include "apps/planner/mechanism/quadratic_root.h"
 #include "apps/planner/rigid/motion_cell.h"
 #include "apps/planner/scene/scene.h"
@@ -81,6 +82,9 @@ struct Mechanism {
   Rational high;
   Messages messages;  ///< what was done to the input
 };
+
+/// All parts of a mechanism at the joint's value 0: the moving one, named "moving", and the others.
+Assembly assembly_of(const Mechanism& mechanism);
 
 /// Reads {"moving": SHAPE, "fixed": [SHAPE, ...], "joint": JOINT}, SHAPE as in scenes (scene.h), JOINT one of
 ///

@@ -36,6 +36,17 @@ void read_joint(const JsonReader& value, Mechanism& m) {
 
 }  // namespace
 
+Assembly assembly_of(const Mechanism& mechanism) {
+  Assembly assembly;
+  assembly.name = mechanism.name;
+  assembly.names.emplace_back("moving");
+  assembly.parts.push_back(mechanism.moving);
+  assembly.names.insert(assembly.names.end(), mechanism.fixed_names.begin(), mechanism.fixed_names.end());
+  assembly.parts.insert(assembly.parts.end(), mechanism.fixed.begin(), mechanism.fixed.end());
+  assembly.messages = mechanism.messages;
+  return assembly;
+}
+
 Mechanism parse_mechanism(const std::string& text, const std::string& folder, const std::string& name,
                           const MeshOptions& meshes) {
   const nlohmann::json value = parse_exact_json(text, name);

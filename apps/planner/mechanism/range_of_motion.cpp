@@ -383,6 +383,20 @@ class RangeSearch {
 
 }  // namespace
 
+const char* status_name(RangeStatus status) {
+  switch (status) {
+    case RangeStatus::kFree:
+      return "free";
+    case RangeStatus::kTouching:
+      return "touching";
+    case RangeStatus::kColliding:
+      return "colliding";
+    case RangeStatus::kUndecided:
+      break;
+  }
+  return "undecided";
+}
+
 RangeOfMotion range_of_motion(const Mechanism& mechanism, const Monitor& monitor) {
   return RangeSearch(mechanism, monitor).run();
 }

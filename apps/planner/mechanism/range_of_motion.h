@@ -21,6 +21,9 @@ enum class RangeStatus : std::uint8_t {
   kUndecided   ///< screws only: too near to an end for doubles
 };
 
+/// "free", "touching", "colliding" or "undecided": how reports and Python spell it.
+const char* status_name(RangeStatus status);
+
 /// Two items that touch at the end of a part of the range.
 struct ContactPair {
   std::string moving;     ///< of the moving part: "vertex 3", "edge 5", "facet 2"

@@ -10,6 +10,7 @@
 #include "apps/planner/rigid/pose_file.h"
 #include "apps/planner/scene/scene.h"
 #include "apps/planner/turning/turning_search.h"
+#include "binding/apps/planner.h"
 #include "binding/base/bindings.h"
 #include "binding/base/mesh_options.h"
 #include "nef/base/timing/time_limit.h"
@@ -371,4 +372,7 @@ void define_module(py::module_& m) {
 }  // namespace
 }  // namespace nef::python
 
-PYBIND11_MODULE(_planner, m) { nef::python::define_module(m); }
+PYBIND11_MODULE(_planner, m) {
+  nef::python::define_module(m);
+  nef::python::bind_mechanisms(m);
+}

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// IntersectionQuery finds the places where the boundaries touch. A local pyramid is read from its sphere map as a
+// LocalCone: the directions of its edges, and the planes of its facets. Let C be the complement of b's pyramid B, and A
+// the pyramid of a, which lies in C. If C is convex, A + d stays in C iff d is in C, so blocked is what is behind a
+// plane of C. The same holds for the complement of A, with -d. If neither is convex, A and B are cut into convex cones
+// A_i and B_j: blocked are the insides of the hulls of B_j and -A_i, whose facets are found by trying all pairs of
+// rays.
+#include "apps/planner/assembly/contact_cones.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "nef/complex/local_pyramid.h"
+#include "nef/distance/intersects.h"
+#include "nef/distance/nearest_features.h"
+#include "nef/geometry/integer_vector.h"
+#include "nef/geometry/vectors.h"
+#include "nef/polyhedron.h"
+#include "nef/sphere_map/sphere_geometry.h"
+
+namespace nef::planner {
+namespace {
+
+using Rays = std::vector<Integer3>;  // that span a convex cone
+
+Integer3 shortened(Integer3 v) {
+  const Integer common = gcd(gcd(v[0], v[1]), v[2]);
+  if (common > 1) {
+    for (Integer& x : v) x /= common;
+  }
+  return v;
+}
+
+// A local pyramid of a solid.
+struct LocalCone {
+  Rays rays;                     // along its edges, and one inside each half circle of its boundary
+  std::vector<Integer3> inward;  // normals of its facets
+  bool convex = false;
+  bool hollow = false;  // its complement is convex
+
+  [[nodiscard]] bool on_side(int side) const {
+    return std::all_of(inward.begin(), inward.end(), [&](const Integer3& n) {
+      return std::all_of(rays.begin(), rays.end(), [&](const Integer3& ray) { return side * sgn(dot(n, ray)) >= 0; });
+    });
+  }
+};
+
+// The only sface with (or without) a mark, if its boundary is one cycle.
+bool is_one_disc(const SphereMapView& map, bool marked) {
+  std::size_t count = 0;
+  bool disc = false;
+  for (const SFace& face : map.sfaces) {
+    if ((face.mark != 0) != marked) continue;
+    ++count;
+    disc = face.entry_count == 1;
+  }
+  return count == 1 && disc;
+}
+
+LocalCone local_cone(const PlaneTable& planes, const SphereMapView& map) {
+  LocalCone cone;
+  const auto normal = [&](PlaneId plane) { return shortened(Direction::normal(planes, plane).integers()); };
+  const auto ray = [&](std::uint32_t v) { return shortened(direction_of(planes, map.svertices[v]).integers()); };
+  for (std::uint32_t v = 0; v < map.svertices.size(); ++v) cone.rays.push_back(ray(v));
+  bool short_arcs = true;  // none is longer than a half circle
+  for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
+    const SHalfedge arc = map.shalfedges[e];
+    if (map.sfaces[arc.sface].mark == 0) continue;
+    const Integer3 inward = normal(arc.plane);
+    const Integer3& from = cone.rays[arc.source];
+    const Integer3& to = cone.rays[map.target(e)];
+    const int turn = sgn(dot(inward, cross(from, to)));
+    short_arcs = short_arcs && turn >= 0 && from != to;
+    if (turn == 0) cone.rays.push_back(cross(inward, from));
+    cone.inward.push_back(inward);
+  }
+  for (const SLoop& loop : map.sloops) {
+    if (map.sfaces[loop.sface].mark != 0) cone.inward.push_back(normal(loop.plane));
+  }
+  const bool simple = short_arcs && map.sloops.empty();
+  cone.convex = simple && is_one_disc(map, true) && cone.on_side(1);
+  cone.hollow = (simple && is_one_disc(map, false) && cone.on_side(-1)) || map.svertices.empty();  // or a half-space
+  return cone;
+}
+
+// The part of a cone, whose rays are in cyclic order, on the side n * x >= 0; no rays if that has no inside.
+Rays clipped(const Rays& cone, const Integer3& n) {
+  Rays result;
+  bool inside = false;
+  for (std::size_t i = 0; i < cone.size(); ++i) {
+    const Integer3& p = cone[i];
+    const Integer3& q = cone[(i + 1) % cone.size()];
+    const Integer at_p = dot(n, p);
+    const Integer at_q = dot(n, q);
+    inside = inside || at_p > 0;
+    if (at_p >= 0) result.push_back(p);
+    if (sgn(at_p) * sgn(at_q) >= 0) continue;
+    Integer3 crossing;
+    for (std::size_t k = 0; k < 3; ++k) crossing[k] = abs(at_q) * p[k] + abs(at_p) * q[k];
+    result.push_back(shortened(crossing));
+  }
+  return inside ? result : Rays{};
+}
+
+// Convex cones whose union is the closure of a pyramid: the octants, cut by all of its planes.
+std::vector<Rays> convex_parts(const PlaneTable& planes, const SphereMapView& map, const LocalCone& cone,
+                               const Monitor& monitor) {
+  if (cone.convex) return {cone.rays};
+  std::vector<Rays> parts;
+  for (unsigned octant = 0; octant < 8; ++octant) {
+    Rays& rays = parts.emplace_back();
+    for (unsigned k = 0; k < 3; ++k) {
+      Integer3 axis{0, 0, 0};
+      axis[k] = (octant >> k & 1U) != 0 ? 1 : -1;
+      rays.push_back(axis);
+    }
+  }
+  const std::set<Integer3> cuts(cone.inward.begin(), cone.inward.end());
+  for (const Integer3& n : cuts) {
+    std::vector<Rays> halves;
+    for (const Rays& part : parts) {
+      for (const Integer3& side : {n, opposite(n)}) {
+        if (Rays half = clipped(part, side); !half.empty()) halves.push_back(std::move(half));
+      }
+    }
+    parts = std::move(halves);
+  }
+  std::erase_if(parts, [&](const Rays& part) {
+    Integer3 middle{0, 0, 0};
+    for (const Integer3& ray : part) middle = plus(middle, ray);
+    const SphereLocation at = locate(planes, map, Direction::exact(middle[0], middle[1], middle[2]), monitor);
+    return mark_at(map, at) == 0;
+  });
+  return parts;
+}
+
+// The inside of the cone that rays span: the outward normals of its facets. Every facet contains two of the rays.
+OpenCone inside_of_hull(const Rays& rays) {
+  std::set<Integer3> normals;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    for (std::size_t j = i + 1; j < rays.size(); ++j) {
+      const Integer3 n = cross(rays[i], rays[j]);
+      if (is_zero(n)) continue;
+      bool above = false;
+      bool below = false;
+      for (std::size_t k = 0; k < rays.size() && !(above && below); ++k) {
+        const int side = sgn(dot(n, rays[k]));
+        above = above || side > 0;
+        below = below || side < 0;
+      }
+      if (above != below) normals.insert(shortened(above ? opposite(n) : n));
+    }
+  }
+  return {normals.begin(), normals.end()};
+}
+
+// The pyramids of the items of a solid, each made once.
+class Pyramids {
+ public:
+  explicit Pyramids(const Complex& complex) : complex_(complex) {}
+
+  struct Pyramid {
+    LocalCone cone;
+    std::vector<Rays> parts;  // convex ones; made when they are needed
+  };
+
+  Pyramid& at(const ItemRef& item) {
+    const auto [found, fresh] = known_.try_emplace(item);
+    if (fresh) {
+      pyramid_of(complex_, item, buffer_);
+      found->second.cone = local_cone(complex_.planes, buffer_.view());
+    }
+    return found->second;
+  }
+  const std::vector<Rays>& parts_at(const ItemRef& item, const Monitor& monitor) {
+    Pyramid& pyramid = at(item);
+    if (pyramid.parts.empty()) {
+      pyramid_of(complex_, item, buffer_);
+      pyramid.parts = convex_parts(complex_.planes, buffer_.view(), pyramid.cone, monitor);
+    }
+    return pyramid.parts;
+  }
+
+ private:
+  const Complex& complex_;
+  SphereMapBuffer buffer_;
+  std::map<ItemRef, Pyramid> known_;
+};
+
+// A point where two items touch, of which one is a vertex, or both are edges.
+Rational3 common_point(const Complex& a, const Complex& b, const ItemRef& of_a, const ItemRef& of_b) {
+  if (of_a.kind == ItemRef::Kind::kVertex) return a.points.rational(point_of(of_a.vertex()));
+  if (of_b.kind == ItemRef::Kind::kVertex) return b.points.rational(point_of(of_b.vertex()));
+  const auto segment = [](const Complex& c, HalfedgeId h) {
+    return std::array{c.points.rational(point_of(c.source(h))), c.points.rational(point_of(c.target(h)))};
+  };
+  return nearest_of_segments(segment(a, of_a.halfedge()), segment(b, of_b.halfedge())).on_a;
+}
+
+}  // namespace
+
+bool contains(const OpenCone& cone, const Rational3& direction) {
+  return std::all_of(cone.begin(), cone.end(), [&](const Integer3& n) {
+    return Rational(n[0]) * direction[0] + Rational(n[1]) * direction[1] + Rational(n[2]) * direction[2] < 0;
+  });
+}
+
+OpenCone inside_of_hull(const std::vector<Rational3>& vectors) {
+  Rays rays;
+  for (const Rational3& v : vectors) {
+    if (!is_zero(v)) rays.push_back(primitive(v));
+  }
+  return inside_of_hull(rays);
+}
+
+OpenCone opposite(const OpenCone& cone) {
+  OpenCone result;
+  for (const Integer3& n : cone) result.push_back(opposite(n));
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+std::optional<ContactCones> contact_cones(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor) {
+  const auto contacts = IntersectionQuery(a, b).contacts({}, monitor);
+  if (!contacts) return std::nullopt;
+  Pyramids of_a(a.complex());
+  Pyramids of_b(b.complex());
+  std::set<OpenCone> cones;
+  for (const auto& [item_a, item_b] : *contacts) {
+    const LocalCone& cone_a = of_a.at(item_a).cone;
+    const LocalCone& cone_b = of_b.at(item_b).cone;
+    if (cone_b.hollow) {
+      for (const Integer3& inward : cone_b.inward) cones.insert({opposite(inward)});
+    } else if (cone_a.hollow) {
+      for (const Integer3& inward : cone_a.inward) cones.insert({inward});
+    } else {
+      for (const Rays& part_b : of_b.parts_at(item_b, monitor)) {
+        for (const Rays& part_a : of_a.parts_at(item_a, monitor)) {
+          Rays rays = part_b;
+          for (const Integer3& ray : part_a) rays.push_back(opposite(ray));
+          cones.insert(inside_of_hull(rays));
+        }
+      }
+    }
+  }
+  ContactCones result;
+  for (const OpenCone& cone : cones) {
+    const bool in_another = cone.size() > 1 && std::any_of(cone.begin(), cone.end(),
+                                                           [&](const Integer3& n) { return cones.contains({n}); });
+    if (!in_another) result.blocked.push_back(cone);
+  }
+  if (!contacts->empty()) {
+    const auto& [item_a, item_b] = contacts->front();
+    result.point = common_point(a.complex(), b.complex(), item_a, item_b);
+  }
+  return result;
+}
+
+}  // namespace nef::planner

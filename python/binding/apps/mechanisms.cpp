@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The part of the extension module nef._planner that nef.mechanisms is made of: verdicts on parts, ranges of motion,
+// linkages. It gives tuples, which Python makes into the public classes.
+#include <pybind11/stl.h>
+
+#include "apps/planner/linkage/linkage_checker.h"
+#include "apps/planner/mechanism/range_of_motion.h"
+#include "apps/planner/verdict/verdict.h"
+#include "binding/apps/planner.h"
+#include "binding/base/bindings.h"
+
+namespace nef::python {
+namespace {
+
+namespace plan = nef::planner;
+
+py::tuple from_triple(const Integer3& triple) {
+  return py::make_tuple(to_int(triple[0]), to_int(triple[1]), to_int(triple[2]));
+}
+
+// (a, b, contact, squared, distance, on_a, on_b, items, overlap); the overlap is (region, box, volume, error, exact).
+py::tuple told(const plan::PairVerdict& pair) {
+  py::object items = py::none();
+  if (pair.touching) items = py::make_tuple((*pair.touching)[0], (*pair.touching)[1]);
+  py::object overlap = py::none();
+  if (pair.interference) {
+    const plan::Interference& found = *pair.interference;
+    overlap = py::make_tuple(
+        found.region, py::make_tuple(python::from_triple(found.box[0]), python::from_triple(found.box[1])),
+        found.volume.value, found.volume.error, found.exact_volume ? to_fraction(*found.exact_volume) : py::none());
+  }
+  return py::make_tuple(pair.a, pair.b, std::string(contact_name(pair.distance.contact)),
+                        to_fraction(pair.distance.squared), pair.distance.value(),
+                        python::from_triple(pair.distance.on_a), python::from_triple(pair.distance.on_b), items,
+                        overlap);
+}
+
+// (status, direction, dimension, rays, stops); a stop is (part, normals).
+py::tuple told(const plan::PartVerdict& part) {
+  py::list rays;
+  for (const Integer3& ray : part.first.rays) rays.append(from_triple(ray));
+  py::list stops;
+  for (const plan::FreeDirections::Stop& stop : part.first.stops) {
+    py::list normals;
+    for (const Integer3& n : stop.directions) normals.append(from_triple(n));
+    stops.append(py::make_tuple(stop.part, normals));
+  }
+  return py::make_tuple(plan::status_name(part.status),
+                        part.direction ? py::object(python::from_triple(*part.direction)) : py::none(),
+                        part.first.dimension, rays, stops);
+}
+
+// (pairs, parts)
+py::tuple verdict(const std::vector<Polyhedron>& parts, bool exact) {
+  plan::Assembly assembly;
+  for (const Polyhedron& part : parts) {
+    if (part.is_empty() || !part.is_bounded() || !part.is_regular()) {
+      throw InputError("part " + std::to_string(assembly.parts.size()) +
+                       " must be a bounded solid without surfaces, curves or points sticking out");
+    }
+    assembly.parts.push_back(part);
+    assembly.names.emplace_back();
+  }
+  if (parts.empty()) throw InputError("a verdict needs a part");
+  const plan::Verdict found = call(items(parts), [assembly, exact](const Monitor& monitor) {
+    plan::Assembly closed = assembly;
+    for (Polyhedron& part : closed.parts) part = closure(part, monitor);
+    return plan::verdict(closed, {exact, monitor});
+  });
+  py::list pairs;
+  for (const plan::PairVerdict& pair : found.pairs) pairs.append(told(pair));
+  py::list judged;
+  for (const plan::PartVerdict& part : found.parts) judged.append(told(part));
+  return py::make_tuple(pairs, judged);
+}
+
+// (names, parts, messages) of a file.
+py::tuple read_parts(const std::string& path) {
+  const plan::Assembly assembly = call(kSmallCall, [path](const Monitor&) { return plan::read_assembly(path); });
+  return py::make_tuple(assembly.names, assembly.parts, assembly.messages);
+}
+
+// (measure, lower, upper, stops); the bounds are equal if the value is rational. A stop is (item, part, item of it).
+py::tuple told(const plan::RangeEnd& end, const plan::Mechanism& m) {
+  constexpr unsigned kBits = 60;
+  const std::array<Rational, 2> around = plan::enclosure(end.value, kBits);
+  py::list stops;
+  for (const plan::ContactPair& stop : end.stops) stops.append(py::make_tuple(stop.moving, stop.fixed, stop.of_fixed));
+  return py::make_tuple(m.joint.measure_of(around[0]), to_fraction(around[0]), to_fraction(around[1]), stops);
+}
+
+// A list of (status, start, end).
+py::list range_of(const plan::Mechanism& mechanism) {
+  const plan::RangeOfMotion range =
+      call(kSmallCall, [mechanism](const Monitor& monitor) { return plan::range_of_motion(mechanism, monitor); });
+  py::list result;
+  for (const plan::RangePart& part : range.parts) {
+    result.append(py::make_tuple(plan::status_name(part.status), told(part.from, mechanism), told(part.to, mechanism)));
+  }
+  return result;
+}
+
+// The joint is ("hinge", axis, point), ("slider", direction) or ("screw", axis, point, pitch).
+py::list range_of_motion(const Polyhedron& moving, const std::vector<Polyhedron>& fixed, const py::tuple& joint,
+                         py::handle low, py::handle high) {
+  plan::Mechanism m;
+  m.moving = moving;
+  m.fixed = fixed;
+  m.fixed_names.resize(fixed.size());
+  const auto kind = joint[0].cast<std::string>();
+  const Rational3 direction = to_triple(joint[1], "an axis or direction");
+  if (kind == "slider") {
+    m.joint = plan::Joint::slider(direction);
+  } else if (kind == "hinge") {
+    m.joint = plan::Joint::hinge(direction, to_triple(joint[2], "a point"));
+  } else {
+    m.joint = plan::Joint::screw(direction, to_triple(joint[2], "a point"), to_rational(joint[3]));
+  }
+  m.low = m.joint.value_of(to_rational(low));
+  m.high = m.joint.value_of(to_rational(high));
+  if (m.low > m.high) throw InputError("a range goes from low to high");
+  for (const Polyhedron& part : m.fixed) {
+    if (part.is_empty() || !part.is_bounded() || !part.is_regular())
+      throw InputError("fixed parts must be bounded solids");
+  }
+  if (moving.is_empty() || !moving.is_bounded() || !moving.is_regular()) {
+    throw InputError("the moving part must be a bounded solid");
+  }
+  return range_of(m);
+}
+
+// (range, names of the fixed parts, messages) of a file.
+py::tuple range_of_file(const std::string& path) {
+  const plan::Mechanism m = call(kSmallCall, [path](const Monitor&) { return plan::read_mechanism(path); });
+  return py::make_tuple(range_of(m), m.fixed_names, m.messages);
+}
+
+using Triple = std::array<double, 3>;
+
+// Links are (name, body or None, kind, parent, shift, turn, axis).
+std::shared_ptr<plan::LinkageChecker> linkage_checker(const py::list& links,
+                                                      const std::vector<std::array<std::size_t, 2>>& allowed,
+                                                      const std::vector<Polyhedron>& obstacles) {
+  plan::Linkage linkage;
+  linkage.allowed = allowed;
+  std::vector<std::optional<Polyhedron>> bodies;
+  for (const py::handle item : links) {
+    const auto values = item.cast<py::tuple>();
+    plan::Link& link = linkage.links.emplace_back();
+    link.name = values[0].cast<std::string>();
+    bodies.push_back(values[1].cast<std::optional<Polyhedron>>());
+    const auto kind = values[2].cast<std::string>();
+    link.joint.kind = kind == "revolute"    ? plan::LinkageJoint::Kind::kRevolute
+                      : kind == "prismatic" ? plan::LinkageJoint::Kind::kPrismatic
+                                            : plan::LinkageJoint::Kind::kFixed;
+    link.joint.parent = values[3].cast<std::size_t>();
+    link.joint.shift = plan::to_vector(values[4].cast<Triple>());
+    link.joint.turn = values[5].cast<std::array<double, 4>>();
+    link.joint.axis = plan::to_vector(values[6].cast<Triple>());
+  }
+  return call(kSmallCall, [=](const Monitor& monitor) mutable {
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      if (bodies[i]) linkage.links[i].body = plan::RigidBody::of_set(*bodies[i], monitor);
+    }
+    std::vector<plan::RigidBody> around;
+    for (const Polyhedron& obstacle : obstacles) around.push_back(plan::RigidBody::of_set(obstacle, monitor));
+    return std::make_shared<plan::LinkageChecker>(linkage, plan::RigidBody::together(around));
+  });
+}
+
+// (status, parameter, link, other link or None, undecided parts)
+py::tuple check_linkage(const std::shared_ptr<plan::LinkageChecker>& checker, const std::vector<double>& from,
+                        const std::vector<double>& to) {
+  const std::size_t dimension = checker->linkage().dimension();
+  if (from.size() != dimension || to.size() != dimension) {
+    throw py::value_error("the linkage has " + std::to_string(dimension) + " joints with a value, not " +
+                          std::to_string(std::max(from.size(), to.size())));
+  }
+  const plan::LinkageVerdict found =
+      call(kSmallCall, [=](const Monitor&) { return from == to ? checker->check(from) : checker->check(from, to); });
+  using Status = plan::MotionVerdict::Status;
+  const char* status = found.status == Status::kFree       ? "path"
+                       : found.status == Status::kCollides ? "blocked"
+                                                           : "undecided";
+  return py::make_tuple(status, found.parameter, found.link, found.other, found.undecided);
+}
+
+}  // namespace
+
+void bind_mechanisms(py::module_& m) {
+  m.def("verdict", &verdict);
+  m.def("read_parts", &read_parts);
+  m.def("range_of_motion", &range_of_motion);
+  m.def("range_of_file", &range_of_file);
+  py::class_<plan::LinkageChecker, std::shared_ptr<plan::LinkageChecker>>(m, "LinkageChecker")
+      .def(py::init(&linkage_checker))
+      .def("check", &check_linkage)
+      .def_property_readonly("dimension", [](const plan::LinkageChecker& c) { return c.linkage().dimension(); });
+}
+
+}  // namespace nef::python

@@ -1,0 +1,272 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Parts at their places, joints that move one of them, and robots of several links. nef.planner has all of it."""
+import os
+import warnings
+from fractions import Fraction
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
+
+from . import _planner
+from ._nef import Polyhedron
+from .errors import InputError
+
+Exact3 = Tuple[Fraction, Fraction, Fraction]
+Integer3 = Tuple[int, int, int]
+
+
+class Overlap(NamedTuple):
+    """Where two parts overlap."""
+
+    #: the intersection of their interiors
+    region: Polyhedron
+    #: two corners around it
+    box: Tuple[Exact3, Exact3]
+    #: off by volume_error at most
+    volume: float
+    volume_error: float
+    #: a Fraction, if it was asked for or is short
+    exact_volume: Optional[Fraction]
+
+
+class PairVerdict(NamedTuple):
+    """How two parts stand to each other."""
+
+    #: their names
+    parts: Tuple[str, str]
+    #: 'disjoint', 'touching' or 'overlapping'
+    contact: str
+    #: the square of their distance, exactly; and the distance
+    squared: Fraction
+    distance: float
+    #: nearest points of the two; one common point if they touch
+    points: Tuple[Exact3, Exact3]
+    #: of parts that touch: the item of each that has the point, "vertex 3"
+    items: Optional[Tuple[str, str]]
+    overlap: Optional[Overlap]
+
+
+class PartVerdict(NamedTuple):
+    """Whether a part can be taken away by translations while all others rest."""
+
+    name: str
+    #: 'removable', 'stuck' (it cannot begin to move), 'overlapping' or 'undecided' (it can begin to move, but leaves in no
+    #: straight line that was tried)
+    status: str
+    #: along which it leaves
+    direction: Optional[Exact3]
+    #: of the cone of directions in which it can begin to move: 3, 2, 1, or 0 if it cannot
+    dimension: int
+    #: along the edges of that cone
+    rays: List[Integer3]
+    #: what bounds the cone: (name, normals) for a part that forbids the directions d with normal * d < 0 for all normals
+    stops: List[Tuple[str, List[Integer3]]]
+
+
+class RangeEnd(NamedTuple):
+    """An end of a part of a range of motion."""
+
+    #: degrees, or multiples of the slider's direction
+    measure: float
+    #: two bounds of the joint's own number, 2^-60 apart; equal if it is rational
+    bounds: Tuple[Fraction, Fraction]
+    #: what touches there
+    stops: List["Stop"]
+
+
+class Stop(NamedTuple):
+    """Two items that touch."""
+
+    #: of the moving part: "vertex 3"
+    moving: str
+    #: the name of the other part, and its item
+    part: str
+    item: str
+
+
+class RangePart(NamedTuple):
+    """A maximal interval of values of a joint with one status, or one value."""
+
+    #: 'free', 'touching', 'colliding', or for screws 'undecided'
+    status: str
+    start: RangeEnd
+    end: RangeEnd
+
+
+class Hinge(NamedTuple):
+    """A joint that turns about a line; its values are degrees."""
+
+    axis: Any = (0, 0, 1)
+    point: Any = (0, 0, 0)
+
+
+class Slider(NamedTuple):
+    """A joint that moves along a direction; its values are multiples of it."""
+
+    direction: Any
+
+
+class Screw(NamedTuple):
+    """A joint that turns and moves along its axis, by `pitch` for each full turn; its values are degrees."""
+
+    axis: Any = (0, 0, 1)
+    point: Any = (0, 0, 0)
+    pitch: Any = 1
+
+
+class Verdict(NamedTuple):
+    """What holds of parts at their places."""
+
+    #: all pairs, a list of PairVerdict
+    pairs: List[PairVerdict]
+    #: all parts, a list of PartVerdict
+    parts: List[PartVerdict]
+
+    @property
+    def interferes(self) -> bool:
+        """Whether some parts overlap."""
+        return any(pair.overlap for pair in self.pairs)
+
+    @property
+    def smallest_gap(self) -> Optional[PairVerdict]:
+        """The pair with the smallest distance, of those that are apart."""
+        apart = [pair for pair in self.pairs if pair.contact == "disjoint"]
+        return min(apart, key=lambda pair: pair.squared, default=None)
+
+
+def verdict(parts: Union[Dict[str, Polyhedron], str, "os.PathLike"], exact: bool = False) -> Verdict:
+    """Judges parts at their places: overlaps, gaps, contacts, and what can be removed. All exact but for volumes.
+
+    - parts: {name: Polyhedron} of bounded solids, or an assembly's file as `planner --assembly` takes it
+    - exact: volumes as fractions, too
+
+        >>> import nef
+        >>> from nef import planner
+        >>> block = nef.box((0, 0, 0), (3, 3, 3)) - nef.box((1, 1, 1), (2, 2, 3)).interior()
+        >>> judged = planner.verdict({"block": block, "peg": nef.box((1, 1, 1), (2, 2, 4))})
+        >>> judged.parts[1].status, [int(x) for x in judged.parts[1].direction]
+        ('removable', [0, 0, 1])
+    """
+    if isinstance(parts, dict):
+        names, sets = list(parts), list(parts.values())
+    else:
+        names, sets, messages = _planner.read_parts(os.fspath(parts))
+        for message in messages:
+            warnings.warn(message, stacklevel=2)
+    pairs, judged = _planner.verdict(sets, exact)
+    return Verdict(
+        [PairVerdict((names[a], names[b]), contact, squared, distance, (on_a, on_b), items, overlap and Overlap(*overlap))
+         for a, b, contact, squared, distance, on_a, on_b, items, overlap in pairs],
+        [PartVerdict(name, status, direction, dimension, rays, [(names[part], normals) for part, normals in stops])
+         for name, (status, direction, dimension, rays, stops) in zip(names, judged)])
+
+
+def range_of_motion(moving: Any, fixed: Optional[Union[Dict[str, Polyhedron], Sequence[Polyhedron]]] = None,
+                    joint: Optional[Union[Hinge, Slider, Screw]] = None, low: Any = 0, high: Any = 360) -> List[RangePart]:
+    """The exact values of a joint at which a part is free, touches or collides: a list of RangePart, in order.
+
+    - moving: the part that moves, as it stands at the value 0; or a mechanism's file as `planner --range` takes it, alone
+    - fixed: the parts that stay, {name: Polyhedron} or a list
+    - joint: a Hinge, Slider or Screw
+    - low, high: degrees, or multiples of a slider's direction
+
+        >>> import nef
+        >>> from nef import planner
+        >>> door = nef.box((0, 0, 0), (3, "1/5", 2))
+        >>> parts = planner.range_of_motion(door, [nef.box((2, 1, 0), (3, 2, 1))], planner.Hinge(), 0, 90)
+        >>> [part.status for part in parts]
+        ['free', 'touching', 'colliding', 'touching', 'free']
+        >>> round(parts[1].start.measure, 6)
+        15.612286
+    """
+    if not isinstance(moving, Polyhedron):
+        if fixed is not None or joint is not None:
+            raise InputError("a mechanism's file has its fixed parts and its joint")
+        parts, names, messages = _planner.range_of_file(os.fspath(moving))
+        for message in messages:
+            warnings.warn(message, stacklevel=2)
+    else:
+        if fixed is None or joint is None:
+            raise InputError("a range of motion needs fixed parts and a joint")
+        names = list(fixed) if isinstance(fixed, dict) else [f"part {i}" for i in range(len(fixed))]
+        sets = list(fixed.values()) if isinstance(fixed, dict) else list(fixed)
+        parts = _planner.range_of_motion(moving, sets, (type(joint).__name__.lower(), *joint), low, high)
+
+    def end(measure, lower, upper, stops):
+        return RangeEnd(measure, (lower, upper), [Stop(item, names[part], other) for item, part, other in stops])
+    return [RangePart(status, end(*start), end(*stop)) for status, start, stop in parts]
+
+
+class CheckedMotion(NamedTuple):
+    """What is proved about a motion of a linkage. True if it is free."""
+
+    #: 'path' (with a gap everywhere), 'blocked' or 'undecided' (contact, and what comes nearer than doubles can tell)
+    status: str
+    #: blocked: where two bodies overlap, 0 at the beginning and 1 at the end
+    parameter: float
+    #: blocked: the names of the two; an obstacle has the name None
+    links: Optional[Tuple[str, Optional[str]]]
+    #: undecided: parts of the motion, from parameter to parameter
+    undecided: List[Tuple[float, float]]
+
+    def __bool__(self):
+        return self.status == "path"
+
+
+class Linkage:
+    """A robot of several links, joined by hinges and sliders. Whole motions of its joints are proved free, or collide.
+
+        >>> import math, nef
+        >>> from nef import planner
+        >>> robot = planner.Linkage()
+        >>> robot.add("arm", nef.box((0, "-1/4", "-1/4"), (2, "1/4", "1/4")), kind="revolute")
+        >>> robot.add("hand", nef.box((0, "-1/4", "-1/4"), (1, "1/4", "1/4")), "arm", "revolute", shift=(2.5, 0, 0))
+        >>> wall = nef.box((1, 2, -1), (4, 3, 1))
+        >>> robot.check([0, 0], [0.3, 0.3], [wall]).status, robot.check([0, 0], [1.2, 0], [wall]).links
+        ('path', ('hand', None))
+    """
+
+    def __init__(self, base: Optional[Polyhedron] = None):
+        """`base` is the body of the link "base", which stays; None if it has no shape."""
+        self._links = [("base", base, "fixed", 0, (0, 0, 0), (1, 0, 0, 0), (0, 0, 1))]
+        self._allowed = []
+        self._checker = None  # the last one, and its obstacles
+
+    def add(self, name: str, body: Optional[Polyhedron] = None, parent: str = "base", kind: str = "fixed",
+            shift: Any = (0, 0, 0), turn: Any = (1, 0, 0, 0), axis: Any = (0, 0, 1)) -> None:
+        """Adds a link. A point v of it is at R(turn) J v + shift in the coordinates of its parent.
+
+        - kind: what J does: 'revolute' turns about the axis by the joint's value, in radians; 'prismatic' shifts along it,
+          by the value; 'fixed' does nothing and has no value
+        - turn: a quaternion w, x, y, z of any length; `axis` is of any length, too. These numbers are floats
+        """
+        if kind not in ("fixed", "revolute", "prismatic"):
+            raise InputError(f"kind must be 'fixed', 'revolute' or 'prismatic', not {kind!r}")
+        if name in (link[0] for link in self._links):
+            raise InputError(f"there is a link {name!r}")
+        self._links.append((name, body, kind, self._number(parent), tuple(shift), tuple(turn), tuple(axis)))
+        self._checker = None
+
+    def allow(self, first: str, second: str) -> None:
+        """Leaves out the comparison of two links. Links that share a joint are never compared."""
+        self._allowed.append([self._number(first), self._number(second)])
+        self._checker = None
+
+    def _number(self, name):
+        numbers = {link[0]: i for i, link in enumerate(self._links)}
+        if name not in numbers:
+            raise InputError(f"there is no link {name!r}")
+        return numbers[name]
+
+    def check(self, start: Sequence[float], end: Optional[Sequence[float]] = None,
+              obstacles: Sequence[Polyhedron] = ()) -> CheckedMotion:
+        """Whether the robot collides, with obstacles or itself, while all joints go evenly from values to values.
+
+        - start, end: a value for each joint that has one, in the order of the links; the robot stays if `end` is None
+        """
+        obstacles = list(obstacles)
+        known = self._checker
+        if known is None or len(known[1]) != len(obstacles) or any(a is not b for a, b in zip(known[1], obstacles)):
+            self._checker = known = _planner.LinkageChecker(self._links, self._allowed, obstacles), obstacles
+        status, parameter, link, other, undecided = known[0].check(list(start), list(start if end is None else end))
+        names = [entry[0] for entry in self._links]
+        links = (names[link], None if other is None else names[other]) if status == "blocked" else None
+        return CheckedMotion(status, parameter, links, [tuple(part) for part in undecided])

@@ -311,7 +311,7 @@ bool something_moves(const std::vector<Cubes>& parts) {
 }
 
 void compare_verdict(const planner::Assembly& assembly, const std::vector<Cubes>& parts) {
-  const planner::Verdict found = planner::verdict(assembly);
+  const planner::PartsVerdict found = planner::verdict(assembly);
   Case::require(!found.interferes(), "verdict: an overlap of cubes that do not");
   for (std::size_t i = 0; i < parts.size(); ++i) {
     Cubes others;

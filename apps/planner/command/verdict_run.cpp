@@ -106,7 +106,7 @@ void print_pair(const PairVerdict& pair, const Assembly& assembly) {
   }
 }
 
-void print(const Verdict& verdict, const Assembly& assembly) {
+void print(const PartsVerdict& verdict, const Assembly& assembly) {
   const std::optional<std::size_t> smallest = verdict.smallest_gap();
   for (std::size_t i = 0; i < verdict.pairs.size(); ++i) {
     const PairVerdict& pair = verdict.pairs[i];
@@ -124,7 +124,7 @@ void print(const Verdict& verdict, const Assembly& assembly) {
   }
 }
 
-json verdict_json(const Verdict& verdict, const Assembly& assembly) {
+json verdict_json(const PartsVerdict& verdict, const Assembly& assembly) {
   json result{{"status", verdict.interferes() ? "overlap" : "clear"}};
   for (const PairVerdict& pair : verdict.pairs) result["pairs"].push_back(pair_json(pair, assembly));
   const std::optional<std::size_t> smallest = verdict.smallest_gap();
@@ -143,7 +143,7 @@ int run_verdict(const Arguments& a) {
   const Assembly& assembly = judged.assembly;
   a.session.note_all(assembly.messages);
   const double setup_s = watch.seconds();
-  const Verdict found = verdict(assembly, {a.exact, a.session.monitor});
+  const PartsVerdict found = verdict(assembly, {a.exact, a.session.monitor});
   std::optional<RangeOfMotion> range;
   if (judged.mechanism) range = range_of_motion(*judged.mechanism, a.session.monitor);
   const auto report = [&] {

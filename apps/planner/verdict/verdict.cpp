@@ -52,8 +52,8 @@ class Judge {
   Judge(const Assembly& assembly, const VerdictOptions& options)
       : parts_(assembly.parts), options_(options), blocking_(assembly.parts, options.monitor) {}
 
-  Verdict run() {
-    Verdict result;
+  PartsVerdict run() {
+    PartsVerdict result;
     std::set<std::size_t> overlapping;
     for (std::size_t a = 0; a < parts_.size(); ++a) {
       for (std::size_t b = a + 1; b < parts_.size(); ++b) {
@@ -160,11 +160,11 @@ const char* status_name(PartVerdict::Status status) {
   return "undecided";
 }
 
-bool Verdict::interferes() const {
+bool PartsVerdict::interferes() const {
   return std::any_of(pairs.begin(), pairs.end(), [](const PairVerdict& pair) { return pair.interference.has_value(); });
 }
 
-std::optional<std::size_t> Verdict::smallest_gap() const {
+std::optional<std::size_t> PartsVerdict::smallest_gap() const {
   std::optional<std::size_t> smallest;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     if (pairs[i].distance.contact != nef::Contact::kDisjoint) continue;
@@ -173,6 +173,6 @@ std::optional<std::size_t> Verdict::smallest_gap() const {
   return smallest;
 }
 
-Verdict verdict(const Assembly& assembly, const VerdictOptions& options) { return Judge(assembly, options).run(); }
+PartsVerdict verdict(const Assembly& assembly, const VerdictOptions& options) { return Judge(assembly, options).run(); }
 
 }  // namespace nef::planner

@@ -56,7 +56,7 @@ struct PartVerdict {
 const char* status_name(PartVerdict::Status status);
 
 /// About all pairs, in order, and all parts.
-struct Verdict {
+struct PartsVerdict {
   std::vector<PairVerdict> pairs;
   std::vector<PartVerdict> parts;
 
@@ -74,6 +74,6 @@ struct VerdictOptions {
 /// Judges parts at their places. Exact but for volumes. O(n log n) for each pair whose boxes meet or which is near, a
 /// Boolean for each pair that overlaps, and for each part projections along some ten directions: 50 to 100 ms for two
 /// parts of 1000 triangles.
-Verdict verdict(const Assembly& assembly, const VerdictOptions& options = {});
+PartsVerdict verdict(const Assembly& assembly, const VerdictOptions& options = {});
 
 }  // namespace nef::planner

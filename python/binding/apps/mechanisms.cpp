@@ -63,7 +63,7 @@ py::tuple verdict(const std::vector<Polyhedron>& parts, bool exact) {
     assembly.names.emplace_back();
   }
   if (parts.empty()) throw InputError("a verdict needs a part");
-  const plan::Verdict found = call(items(parts), [assembly, exact](const Monitor& monitor) {
+  const plan::PartsVerdict found = call(items(parts), [assembly, exact](const Monitor& monitor) {
     plan::Assembly closed = assembly;
     for (Polyhedron& part : closed.parts) part = closure(part, monitor);
     return plan::verdict(closed, {exact, monitor});

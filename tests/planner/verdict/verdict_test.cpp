@@ -40,7 +40,7 @@ Polyhedron ball(int splits, const Rational3& at) {
 }
 
 // Nothing if what is told of each pair and each part is so.
-std::string complaint(const Assembly& assembly, const Verdict& found) {
+std::string complaint(const Assembly& assembly, const PartsVerdict& found) {
   std::size_t at = 0;
   for (std::size_t a = 0; a < assembly.parts.size(); ++a) {
     for (std::size_t b = a + 1; b < assembly.parts.size(); ++b, ++at) {
@@ -100,7 +100,7 @@ std::string complaint(const Assembly& assembly, const Verdict& found) {
   return "";
 }
 
-Verdict exact_verdict(const Assembly& assembly) { return verdict(assembly, {true, {}}); }
+PartsVerdict exact_verdict(const Assembly& assembly) { return verdict(assembly, {true, {}}); }
 
 TEST_CASE("verdict: random boxes and hulls on a grid, against Booleans") {
   std::mt19937 random(11);
@@ -121,7 +121,7 @@ TEST_CASE("verdict: random boxes and hulls on a grid, against Booleans") {
       for (Polyhedron& part : parts) part = transform(part, turn);
     }
     const Assembly assembly = assembly_of(std::move(parts));
-    const Verdict found = exact_verdict(assembly);
+    const PartsVerdict found = exact_verdict(assembly);
     INFO("case " << k);
     CHECK(complaint(assembly, found) == "");
     for (const PartVerdict& part : found.parts) ++seen.at(static_cast<std::size_t>(part.status));
@@ -134,7 +134,7 @@ TEST_CASE("verdict: known assemblies") {
   using Statuses = std::vector<Status>;
   const auto statuses = [](const std::string& name) {
     const Assembly assembly = load_assembly(name);
-    const Verdict found = exact_verdict(assembly);
+    const PartsVerdict found = exact_verdict(assembly);
     CHECK(complaint(assembly, found) == "");
     Statuses result;
     for (const PartVerdict& part : found.parts) result.push_back(part.status);
@@ -155,7 +155,7 @@ TEST_CASE("verdict: balls of 968 triangles take a tenth of a second") {
                               Rational3{Rational(5, 2), Rational(1, 10), Rational(1, 5)}}) {
     const Assembly assembly = assembly_of({first, ball(11, at)});
     const std::clock_t begin = std::clock();
-    const Verdict found = verdict(assembly);
+    const PartsVerdict found = verdict(assembly);
     const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
     CHECK(seconds < 2);  // .03 to .1 s when optimized, on a machine that is not loaded
     CHECK(complaint(assembly, exact_verdict(assembly)) == "");
@@ -167,7 +167,7 @@ TEST_CASE("verdict: balls of 968 triangles take a tenth of a second") {
   }
   // A ball in its own mould: nothing moves.
   const Assembly mould = assembly_of({subtract(make_box({-2, -2, -2}, {2, 2, 2}), interior(ball(4, {}))), ball(4, {})});
-  const Verdict found = exact_verdict(mould);
+  const PartsVerdict found = exact_verdict(mould);
   CHECK(complaint(mould, found) == "");
   CHECK(found.parts[1].status == Status::kStuck);
   CHECK(found.parts[1].first.stops.size() <= 8);

@@ -28,7 +28,7 @@ class Overlap(NamedTuple):
 
 
 class PairVerdict(NamedTuple):
-    """How two parts stand to each other."""
+    """How two parts lie to each other."""
 
     #: their names
     parts: Tuple[str, str]
@@ -113,7 +113,7 @@ class Screw(NamedTuple):
 
 
 class Verdict(NamedTuple):
-    """What holds of parts at their places."""
+    """What is true of parts at their places."""
 
     #: all pairs, a list of PairVerdict
     pairs: List[PairVerdict]
@@ -163,7 +163,7 @@ def range_of_motion(moving: Any, fixed: Optional[Union[Dict[str, Polyhedron], Se
                     joint: Optional[Union[Hinge, Slider, Screw]] = None, low: Any = 0, high: Any = 360) -> List[RangePart]:
     """The exact values of a joint at which a part is free, touches or collides: a list of RangePart, in order.
 
-    - moving: the part that moves, as it stands at the value 0; or a mechanism's file as `planner --range` takes it, alone
+    - moving: the part that moves, in its place at the value 0; or a mechanism's file as `planner --range` takes it, alone
     - fixed: the parts that stay, {name: Polyhedron} or a list
     - joint: a Hinge, Slider or Screw
     - low, high: degrees, or multiples of a slider's direction

@@ -5,12 +5,10 @@
 #include "apps/planner/verdict/verdict.h"
 
 #include <catch2/catch.hpp>
-#include <ctime>
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "apps/minkowski/convex/tools.h"
-#include "apps/minkowski/minkowski.h"
+#include "apps/minkowski/morphology.h"
 #include "apps/program/exact_json.h"
 #include "nef/construct/construct.h"
 #include "nef/geometry/vectors.h"
@@ -36,7 +34,7 @@ Assembly load_assembly(const std::string& name) {
 
 // A polygonal ball.
 Polyhedron ball(int splits, const Rational3& at) {
-  return transform(minkowski::to_polyhedron(minkowski::ball(1, splits)), AffineMap::translate(at));
+  return transform(minkowski::inner_ball(1, splits), AffineMap::translate(at));
 }
 
 // Nothing if what is told of each pair and each part is so.
@@ -149,15 +147,12 @@ TEST_CASE("verdict: known assemblies") {
   CHECK(std::count(burr.begin(), burr.end(), Status::kRemovable) == 1);
 }
 
-TEST_CASE("verdict: balls of 968 triangles take a tenth of a second") {
+TEST_CASE("verdict: balls of 968 triangles that overlap, touch and are apart") {
   const Polyhedron first = ball(11, {});
   for (const Rational3& at : {Rational3{Rational(3, 2), Rational(1, 10), Rational(1, 5)}, Rational3{2, 0, 0},
                               Rational3{Rational(5, 2), Rational(1, 10), Rational(1, 5)}}) {
     const Assembly assembly = assembly_of({first, ball(11, at)});
-    const std::clock_t begin = std::clock();
     const PartsVerdict found = verdict(assembly);
-    const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-    CHECK(seconds < 2);  // .03 to .1 s when optimized, on a machine that is not loaded
     CHECK(complaint(assembly, exact_verdict(assembly)) == "");
     if (at[0] == 2) {
       CHECK(found.pairs[0].distance.contact == nef::Contact::kTouching);

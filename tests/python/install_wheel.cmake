@@ -5,6 +5,9 @@
 file(REMOVE_RECURSE ${WORK})
 file(COPY ${SOURCE}/python/examples DESTINATION ${WORK}/elsewhere)
 file(COPY ${SOURCE}/python/tests/test_examples.py ${SOURCE}/python/tests/conftest.py DESTINATION ${WORK}/elsewhere/tests)
+# Pages whose examples it runs, where it looks for them.
+file(COPY ${SOURCE}/README.md DESTINATION ${WORK})
+file(COPY ${SOURCE}/docs/tutorials/python.md DESTINATION ${WORK}/docs/tutorials)
 function(run)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${WORK}/elsewhere OUTPUT_VARIABLE output ERROR_VARIABLE output
                   RESULT_VARIABLE code)

@@ -31,7 +31,8 @@ mkdir -p "$site/cpp"
 NEF_REFERENCE=$site/cpp doxygen docs/reference/Doxyfile
 rm -rf "$site/cpp/xml"
 if [ -n "$package" ]; then
-  PYTHONPATH=$package python3 -m sphinx -q -b html python/reference "$site/python"
+  # Debian's Sphinx belongs to Debian's Python, whichever comes first on the PATH.
+  PYTHONPATH=$package /usr/bin/python3 -m sphinx -q -b html python/reference "$site/python"
 fi
 python3 -B scripts/check_site.py "$site"
 echo "docs: $site/index.html"

@@ -87,13 +87,13 @@ def repair(vertices: Any, faces: Any = None, *, crossings: str = "union", close:
     """Repairs a mesh that does not bound a solid, as `nef repair`: the solid, and what happened to each face.
 
     A mesh that bounds a solid is not changed. Otherwise doubled faces and faces without area are removed, T-junctions are
-    closed, and faces are flipped to fit their neighbours, components outward. Holes are closed with `close` (percent of the
+    closed, and faces are flipped to match adjacent faces, components outward. Holes are closed with `close` (percent of the
     area, see from_mesh) or `fill_holes` (planar holes of any size). Crossings that remain are resolved by the rule
     `crossings`. Vertices do not move.
 
         >>> r = nef.repair([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2], [0, 1, 3], [1, 2, 3], [2, 0, 3]])
         >>> r.set.volume(), r.done
-        (Fraction(1, 6), ['1 face flipped to fit their neighbours'])
+        (Fraction(1, 6), ['1 face flipped to match adjacent faces'])
     """
     return _nef._repair(*_vertices_and_faces(vertices, faces), strict, fill_holes, crossings, close)
 

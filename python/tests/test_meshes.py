@@ -126,7 +126,7 @@ def test_repair():
     assert sound.set == cube and sound.problem is None and sound.done == [] and sound.faces == 6 * ["kept"]
     turned = nef.repair(CORNERS, [SQUARES[0][::-1]] + SQUARES[1:] + [SQUARES[2]])
     assert turned.set == cube and turned.faces == ["turned"] + 5 * ["kept"] + ["copy"]
-    assert turned.done == ["1 face with the corners of another dropped", "1 face flipped to fit their neighbours"]
+    assert turned.done == ["1 face with the corners of another dropped", "1 face flipped to match adjacent faces"]
 
     corners = CORNERS + [[x + Fraction(1, 2) for x in v] for v in CORNERS]
     squares = SQUARES + [[v + 8 for v in face] for face in SQUARES]

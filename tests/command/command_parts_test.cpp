@@ -205,7 +205,7 @@ TEST_CASE("repair says what it did, and whether that was enough") {
   const Outcome outcome = here.nef("repair turned.off -o b.off");
   CAPTURE(outcome.out, outcome.err);
   CHECK(outcome.code == 0);
-  CHECK(outcome.out.find("1 face turned") == 0);
+  CHECK(outcome.out.find("1 face flipped") == 0);
   CHECK(here.nef("check b.off").code == 0);
   std::string open = cube_off(0, 2);
   open.replace(open.find("8 6 0"), 5, "8 5 0");

@@ -255,7 +255,7 @@ void turn_to_neighbours(MeshInRepair& mesh) {
       ++turned;
     }
   }
-  mesh.note(turned, "face", "faces", "flipped to fit their neighbours");
+  mesh.note(turned, "face", "faces", "flipped to match adjacent faces");
 }
 
 bool is_flat(const MeshInRepair& mesh, const Monitor& monitor) {

@@ -184,7 +184,7 @@ TEST_CASE("Copies, slivers, turned faces and lids are recorded under the numbers
   for (const Crossings rule : {Crossings::kRefuse, Crossings::kUnion}) {
     const RepairedMesh single = repair_mesh(mixed, {.crossings = rule, .record = true});
     REQUIRE(single.problem.empty());
-    CHECK(single.done == std::vector<std::string>{"1 face flipped to fit their neighbours", "1 component flipped"});
+    CHECK(single.done == std::vector<std::string>{"1 face flipped to match adjacent faces", "1 component flipped"});
     CHECK(volume(from_mesh(single.mesh)) == 729);
     CHECK(single.record.fates == std::vector<FaceFate>{kTurned, kTurned, kKept, kTurned, kTurned, kTurned});
     Messages notes;

@@ -514,7 +514,7 @@ TEST_CASE("Import closes holes with the lids that a repair would make, and notes
   const Mesh mixed = changed(open, [](auto& rings) { std::reverse(rings[0].begin(), rings[0].end()); });
   CHECK_THROWS_WITH(from_mesh(mixed), Catch::Contains("only") || Catch::Contains("nef repair flips faces"));
   CHECK(equal(from_mesh(mixed, {.close_percent = 17}, &notes), cube));
-  CHECK(notes.front() == "1 face flipped to fit their neighbours");
+  CHECK(notes.front() == "1 face flipped to match adjacent faces");
   Mesh bent = open;
   bent.vertices[0] = {Rational(-1, 3), Rational(-1, 5), Rational(-1, 7)};
   CHECK_THROWS_WITH(from_mesh(bent, {.strict = true, .close_percent = 40}), Catch::Contains("plan"));

@@ -192,7 +192,7 @@ TEST_CASE("command: cells of a decomposition to a coloured file and into a direc
   place.write("a.nef", std::string(kL) + " + segment(3,1,1, 5,5,5)");
   const Outcome in_off = place.run("--decompose a.nef -o cells.off");
   CHECK(in_off.out == "3 cells\n");
-  CHECK(in_off.err.find("1 of the cells are segments or points, which OFF leaves out") != std::string::npos);
+  CHECK(in_off.err.find("1 of the cells are segments or points, which OFF cannot store") != std::string::npos);
   // Two hulls of 8 vertices and 6 faces.
   CHECK(place.read("cells.off").rfind("OFF\n16 12 0\n", 0) == 0);
   CHECK(nef::read_mesh(place / "cells.off").face_count() == 12);
@@ -350,7 +350,7 @@ TEST_CASE("command: bad usage and bad input are one line on stderr, code 2, and 
   std::ofstream(place / "bad.off") << "OFF\n1 1 0\n0 0 nan\n";
   const std::vector<std::pair<std::string, std::string>> cases = {
       {"a.nef -o out.nef", "two operands"},
-      {"a.nef a.nef", "--output"},
+      {"a.nef a.nef", "name a file with -o"},
       {"a.nef missing.nef -o out.nef", "missing.nef"},
       {"a.nef bad.off -o out.nef", "bad.off"},
       {"--decompose half.nef -o out.off", "unbounded"},

@@ -12,6 +12,7 @@
 #include <cmath>
 
 #include "apps/minkowski/minkowski.h"
+#include "apps/minkowski/part_of_sum.h"
 #include "apps/planner/scene/scene.h"
 #include "nef/base/error.h"
 #include "nef/base/monitor.h"
@@ -73,7 +74,8 @@ std::vector<std::size_t> obstacles_near(const Scene& scene, std::size_t index) {
 
 Polyhedron free_positions(const Scene& scene, const Monitor& monitor) {
   require_no_rotation(scene);
-  const minkowski::MinkowskiOptions options{.monitor = monitor};
+  const minkowski::PartOfSum whole(monitor);  // tells of nothing but the sum
+  const minkowski::MinkowskiOptions options{.monitor = whole.monitor()};
   const Monitor quiet = monitor.quiet();
   std::vector<Polyhedron> obstacles;
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {

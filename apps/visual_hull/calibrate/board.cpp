@@ -126,14 +126,18 @@ cv::Ptr<cv::aruco::CharucoBoard> board_definition(const Board& board) {
 std::vector<BlackTile> black_tiles(const Board& board) {
   std::vector<BlackTile> tiles;
   const auto definition = board_definition(board);
-  std::vector<bool> white(static_cast<std::size_t>(board.columns * board.rows), false);
+  const auto columns = static_cast<std::size_t>(board.columns);
+  std::vector<bool> white(columns * static_cast<std::size_t>(board.rows), false);
+  const auto square = [columns](int row, int column) {
+    return static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
+  };
   const double cell = board.marker / (board.bits + 2);
   for (std::size_t k = 0; k < definition->ids.size(); ++k) {
     // The first corner of a marker is its upper left one; OpenCV's y goes down.
     const cv::Point3f corner = definition->objPoints[k][0];
     const int column = static_cast<int>(corner.x / board.square);
     const int row = static_cast<int>(corner.y / board.square);
-    white[static_cast<std::size_t>(row * board.columns + column)] = true;
+    white[square(row, column)] = true;
     const double margin = (board.square - board.marker) / 2;
     cv::Mat pattern;
     definition->dictionary->drawMarker(definition->ids[k], board.bits + 2, pattern);
@@ -147,7 +151,7 @@ std::vector<BlackTile> black_tiles(const Board& board) {
   }
   for (int row = 0; row < board.rows; ++row) {
     for (int column = 0; column < board.columns; ++column) {
-      if (white[static_cast<std::size_t>(row * board.columns + column)]) continue;
+      if (white[square(row, column)]) continue;
       tiles.push_back({column * board.square, row * board.square, board.square, board.square});
     }
   }

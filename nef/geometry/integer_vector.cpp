@@ -18,13 +18,14 @@ Integer3 times(const Rational3& v, const Integer& multiple) {
   return result;
 }
 
-Integer3 primitive(const Rational3& v) {
-  Integer3 result = times(v, common_denominator(v));
-  const Integer divisor = gcd(gcd(result[0], result[1]), result[2]);
+Integer3 primitive(const Rational3& v) { return primitive(times(v, common_denominator(v))); }
+
+Integer3 primitive(Integer3 v) {
+  const Integer divisor = gcd(gcd(v[0], v[1]), v[2]);
   if (divisor > 1) {
-    for (Integer& x : result) mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), divisor.get_mpz_t());
+    for (Integer& x : v) mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), divisor.get_mpz_t());
   }
-  return result;
+  return v;
 }
 
 }  // namespace nef

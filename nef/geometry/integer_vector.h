@@ -15,5 +15,9 @@ Integer3 times(const Rational3& v, const Integer& multiple);
 
 /// The shortest integer vector in the same direction; zero for zero.
 Integer3 primitive(const Rational3& v);
+Integer3 primitive(Integer3 v);
+
+/// The same vector with rational coordinates.
+inline Rational3 to_rational(const Integer3& v) { return {Rational(v[0]), Rational(v[1]), Rational(v[2])}; }
 
 }  // namespace nef

@@ -25,6 +25,11 @@ std::array<Number, 3> minus(const std::array<Number, 3>& a, const std::array<Num
 }
 
 template <class Number>
+std::array<Number, 3> opposite(const std::array<Number, 3>& v) {
+  return {Number(-v[0]), Number(-v[1]), Number(-v[2])};
+}
+
+template <class Number>
 Number dot(const std::array<Number, 3>& a, const std::array<Number, 3>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }

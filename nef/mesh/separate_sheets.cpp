@@ -89,7 +89,7 @@ class Separator {
     std::vector<Rational3> direction;
     for (const FaceSide& side : sides) {
       const Rational3 w = cross(area_vector(mesh_, mesh_.face(side.face)), along);
-      direction.push_back(side.forward ? w : Rational3{-w[0], -w[1], -w[2]});
+      direction.push_back(side.forward ? w : opposite(w));
     }
     // The first direction and what lies less than half a turn behind it comes first.
     const auto upper = [&](const Rational3& w) {

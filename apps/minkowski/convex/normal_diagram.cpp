@@ -7,6 +7,7 @@
 #include "apps/minkowski/convex/normal_diagram.h"
 
 #include <unordered_map>
+#include <utility>
 
 #include "nef/base/error.h"
 #include "nef/geometry/integer_vector.h"
@@ -14,14 +15,6 @@
 
 namespace nef::minkowski {
 namespace {
-
-// Removes the common factor, so that numbers stay small.
-void reduce(Integer3& v) {
-  Integer g = gcd(gcd(v[0], v[1]), v[2]);
-  if (g > 1) {
-    for (Integer& x : v) mpz_divexact(x.get_mpz_t(), x.get_mpz_t(), g.get_mpz_t());
-  }
-}
 
 // A positive multiple of b - a in integers.
 Integer3 integer_difference(const Rational3& a, const Rational3& b) { return primitive(minus(b, a)); }
@@ -109,7 +102,7 @@ void NormalDiagram::set_directions() {
       normals[f] = cell_->normals[f];
     } else {
       normals[f] = cross(edge(face[0], face[1]), edge(face[1], face[2]));
-      reduce(normals[f]);
+      normals[f] = primitive(std::move(normals[f]));
     }
     normals_.push_back(Direction::exact(normals[f][0], normals[f][1], normals[f][2]));
   }

@@ -79,7 +79,7 @@ bool Blocking::blocks(std::size_t a, std::size_t b, const Rational3& d) {
 
 bool Blocking::blocks_at_once(std::size_t a, std::size_t b, const Rational3& d) {
   // b moved against a meets it where a moved against b does, the other way.
-  if (a > b) return blocks_at_once(b, a, {-d[0], -d[1], -d[2]});
+  if (a > b) return blocks_at_once(b, a, opposite(d));
   const std::optional<ContactCones>& found = contact(a, b);
   return !found || std::any_of(found->blocked.begin(), found->blocked.end(),
                                [&d](const OpenCone& cone) { return contains(cone, d); });
@@ -90,7 +90,7 @@ std::vector<OpenCone> Blocking::blocked_cones(std::size_t a, std::size_t b) {
   if (!found) return {OpenCone{}};
   std::vector<OpenCone> result = found->blocked;
   if (a > b) {
-    for (OpenCone& cone : result) cone = opposite(cone);
+    for (OpenCone& cone : result) cone = opposite_cone(cone);
   }
   return result;
 }

@@ -26,14 +26,6 @@ namespace {
 
 using Rays = std::vector<Integer3>;  // that span a convex cone
 
-Integer3 shortened(Integer3 v) {
-  const Integer common = gcd(gcd(v[0], v[1]), v[2]);
-  if (common > 1) {
-    for (Integer& x : v) x /= common;
-  }
-  return v;
-}
-
 // A local pyramid of a solid.
 struct LocalCone {
   Rays rays;                     // along its edges, and one inside each half circle of its boundary
@@ -62,8 +54,8 @@ bool is_one_disc(const SphereMapView& map, bool marked) {
 
 LocalCone local_cone(const PlaneTable& planes, const SphereMapView& map) {
   LocalCone cone;
-  const auto normal = [&](PlaneId plane) { return shortened(Direction::normal(planes, plane).integers()); };
-  const auto ray = [&](std::uint32_t v) { return shortened(direction_of(planes, map.svertices[v]).integers()); };
+  const auto normal = [&](PlaneId plane) { return primitive(Direction::normal(planes, plane).integers()); };
+  const auto ray = [&](std::uint32_t v) { return primitive(direction_of(planes, map.svertices[v]).integers()); };
   for (std::uint32_t v = 0; v < map.svertices.size(); ++v) cone.rays.push_back(ray(v));
   bool short_arcs = true;  // none is longer than a half circle
   for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
@@ -100,7 +92,7 @@ Rays clipped(const Rays& cone, const Integer3& n) {
     if (sgn(at_p) * sgn(at_q) >= 0) continue;
     Integer3 crossing;
     for (std::size_t k = 0; k < 3; ++k) crossing[k] = abs(at_q) * p[k] + abs(at_p) * q[k];
-    result.push_back(shortened(crossing));
+    result.push_back(primitive(crossing));
   }
   return inside ? result : Rays{};
 }
@@ -151,7 +143,7 @@ OpenCone inside_of_hull(const Rays& rays) {
         above = above || side > 0;
         below = below || side < 0;
       }
-      if (above != below) normals.insert(shortened(above ? opposite(n) : n));
+      if (above != below) normals.insert(primitive(above ? opposite(n) : n));
     }
   }
   return {normals.begin(), normals.end()};
@@ -203,9 +195,7 @@ Rational3 common_point(const Complex& a, const Complex& b, const ItemRef& of_a, 
 }  // namespace
 
 bool contains(const OpenCone& cone, const Rational3& direction) {
-  return std::all_of(cone.begin(), cone.end(), [&](const Integer3& n) {
-    return Rational(n[0]) * direction[0] + Rational(n[1]) * direction[1] + Rational(n[2]) * direction[2] < 0;
-  });
+  return std::all_of(cone.begin(), cone.end(), [&](const Integer3& n) { return dot(to_rational(n), direction) < 0; });
 }
 
 OpenCone inside_of_hull(const std::vector<Rational3>& vectors) {
@@ -216,7 +206,7 @@ OpenCone inside_of_hull(const std::vector<Rational3>& vectors) {
   return inside_of_hull(rays);
 }
 
-OpenCone opposite(const OpenCone& cone) {
+OpenCone opposite_cone(const OpenCone& cone) {
   OpenCone result;
   for (const Integer3& n : cone) result.push_back(opposite(n));
   std::sort(result.begin(), result.end());

@@ -16,15 +16,11 @@ namespace nef::planner {
 /// are in order. Without normals: all directions.
 using OpenCone = std::vector<Integer3>;
 
-/// -v, and v as rational numbers.
-inline Integer3 opposite(const Integer3& v) { return {-v[0], -v[1], -v[2]}; }
-inline Rational3 to_rational(const Integer3& v) { return {Rational(v[0]), Rational(v[1]), Rational(v[2])}; }
-
 /// True if a direction is in the cone.
 bool contains(const OpenCone& cone, const Rational3& direction);
 
 /// The cone of the directions -d.
-OpenCone opposite(const OpenCone& cone);
+OpenCone opposite_cone(const OpenCone& cone);
 
 /// The inside of the cone that some vectors span: without normals if that is all of space, or flat. O(n^3).
 OpenCone inside_of_hull(const std::vector<Rational3>& vectors);

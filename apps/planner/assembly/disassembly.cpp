@@ -22,11 +22,10 @@
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
 #include "nef/geometry/integer_vector.h"
+#include "nef/geometry/vectors.h"
 
 namespace nef::planner {
 namespace {
-
-Rational3 negative(const Rational3& d) { return {-d[0], -d[1], -d[2]}; }
 
 PartSet all_parts(const Assembly& assembly) {
   PartSet parts(assembly.parts.size());
@@ -127,7 +126,7 @@ class TakingApart {
         Rational3 along = d;
         if (size_of(stay) < size_of(moving)) {
           std::swap(moving, stay);
-          along = negative(d);
+          along = opposite(d);
         }
         const std::pair<std::size_t, Rational> size = size_of(moving);
         if (best && best_size <= size) continue;

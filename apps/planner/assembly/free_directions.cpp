@@ -10,6 +10,7 @@
 #include <set>
 
 #include "apps/minkowski/minkowski.h"
+#include "nef/geometry/integer_vector.h"
 #include "nef/geometry/vectors.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
@@ -116,10 +117,7 @@ FreeDirections free_directions(Blocking& blocking, std::size_t part, const Monit
                                                                                       : 0;
   for (const SVertex& ray : around.svertices) {
     if (ray.mark == 0) continue;
-    Integer3 d = direction_of(result.cone.complex().planes, ray).integers();
-    const Integer common = gcd(gcd(d[0], d[1]), d[2]);
-    for (Integer& x : d) x /= common;
-    result.rays.push_back(d);
+    result.rays.push_back(primitive(direction_of(result.cone.complex().planes, ray).integers()));
   }
   std::sort(result.rays.begin(), result.rays.end());
   return result;

@@ -21,8 +21,6 @@ using Corners = std::array<Rational3, 3>;
 using Normals = std::vector<Rational3>;
 using Tie = std::array<std::size_t, 2>;  // the first part is blocked by the second one
 
-Rational3 reversed(const Rational3& v) { return {-v[0], -v[1], -v[2]}; }
-
 // Whether vectors are in the open cone of all d with n * d < 0.
 bool contains_all(const Normals& normals, const Corners& vectors) {
   return std::all_of(normals.begin(), normals.end(), [&](const Rational3& n) {
@@ -45,7 +43,7 @@ Normals outer_planes(const std::vector<Rational3>& vectors) {
         most = std::max(most, at);
       }
       if (least < 0 && most == 0) result.push_back(n);
-      if (least == 0 && most > 0) result.push_back(reversed(n));
+      if (least == 0 && most > 0) result.push_back(opposite(n));
     }
   }
   return result;
@@ -112,7 +110,7 @@ class InseparableCheck {
   }
 
   Complaint check_ties(const DirectionCone& cone, const Corners& corners) {
-    const Corners back{reversed(corners[0]), reversed(corners[1]), reversed(corners[2])};
+    const Corners back{opposite(corners[0]), opposite(corners[1]), opposite(corners[2])};
     std::vector<Tie> ties;
     for (const bool first : {true, false}) {
       for (const std::uint32_t number : first ? cone.first_blocked : cone.second_blocked) {

@@ -84,7 +84,7 @@ class TieSearch {
         for (const Rational3& x : pieces_a[i]) rays.push_back(minus(at, x));
         OpenCone blocked = inside_of_hull(rays);
         if (blocked.empty()) continue;
-        contacts_.push_back({{{a, i}, {b, j}, std::move(*found.common)}, blocked, opposite(blocked)});
+        contacts_.push_back({{{a, i}, {b, j}, std::move(*found.common)}, blocked, opposite_cone(blocked)});
       }
     }
   }

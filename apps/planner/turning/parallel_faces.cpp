@@ -52,7 +52,7 @@ std::set<Turn> turns_of_parallel_faces(const Scene& scene, const TurningRobot& r
   for (const Rational3& n : normals_of(robot)) {
     for (const Rational3& m : of_obstacles) {
       // The angle from n to m or its opposite, since facets have two sides; in the range, which may begin anywhere.
-      for (const Rational3& to : {m, Rational3{-m[0], -m[1], -m[2]}}) {
+      for (const Rational3& to : {m, opposite(m)}) {
         const std::optional<Turn> turn = question.axis.turn_between(n, to);
         if (!turn) break;
         for (Turn at = moved_above(*turn, question.low); at <= question.high; at += 4) {

@@ -12,6 +12,7 @@
 
 #include "apps/program/set_info.h"
 #include "nef/distance/nearest_features.h"
+#include "nef/geometry/integer_vector.h"
 #include "nef/geometry/vectors.h"
 #include "nef/query/location_name.h"
 

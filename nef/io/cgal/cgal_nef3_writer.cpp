@@ -5,6 +5,7 @@
 // of each shell. CGAL's shalfedges belong to the facet's other side than ours, hence the opposite halffacets.
 #include "nef/base/error.h"
 #include "nef/complex/shell_sfaces.h"
+#include "nef/geometry/integer_vector.h"
 #include "nef/io/cgal/cgal_nef3.h"
 #include "nef/io/number_text.h"
 #include "nef/polyhedron.h"
@@ -121,9 +122,7 @@ class Nef3Writer {
       number((c_.vertices.shalfedges(v) + s.out).index());
     }
     text_ += " |";
-    Integer3 direction = Direction::cross(c_.planes, s.p, s.q).integers();
-    Integer divisor = gcd(gcd(direction[0], direction[1]), direction[2]);
-    for (const Integer& x : direction) integer(Integer(x / divisor).get_mpz_t());
+    for (const Integer& x : primitive(Direction::cross(c_.planes, s.p, s.q).integers())) integer(x.get_mpz_t());
     text_ += " 1";
     end(s.mark);
   }

@@ -13,6 +13,7 @@
 #include "apps/minkowski/convolution/facets/polygon_sum.h"
 #include "apps/minkowski/planar/planar_sum.h"
 #include "nef/base/threads/parallel.h"
+#include "nef/geometry/integer_vector.h"
 #include "nef/geometry/plane_finder.h"
 #include "nef/geometry/vectors.h"
 #include "nef/mesh/edge_order.h"
@@ -344,7 +345,7 @@ class Convolution {
     const MarkedPolygon p = polygon(ours, piece);
     const MarkedPolygon q = polygon(theirs, other);
     const Integer3& n = normal.integers();
-    for (const SumCorner& c : polygon_sum(p, q, {Rational(n[0]), Rational(n[1]), Rational(n[2])})) {
+    for (const SumCorner& c : polygon_sum(p, q, to_rational(n))) {
       push_corner(pair(piece.ring[c.p], other.ring[c.q], swapped), c.mark, c.side);
     }
     push_facet(normal, p.inside & q.inside);

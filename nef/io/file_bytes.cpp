@@ -313,4 +313,12 @@ void write_file(const std::string& path, std::string_view bytes) {
   Replacement(path, behind_links(path).string()).write(bytes);
 }
 
+void make_folder(const std::string& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) {
+    throw FileError(FileProblem::kUnreadable, path + ": the folder cannot be created (" + error.message() + ")");
+  }
+}
+
 }  // namespace nef

@@ -68,6 +68,9 @@ void read_blocks(const std::string& path, const std::function<void(std::string_v
 /// The extension of a path in lower case without the dot; empty if there is none.
 std::string lower_extension(const std::string& path);
 
+/// Makes a folder and those around it, if it is not there. Throws FileError (kUnreadable).
+void make_folder(const std::string& path);
+
 /// Writes `bytes` to a new file beside `path` that gets its name when it is whole, so that readers see the old file or
 /// the whole new one. The new file has no name while it is written, where the file system can do that (O_TMPFILE);
 /// elsewhere it is called .NAME.partial, and what a killed run left under that name is used again. It keeps the

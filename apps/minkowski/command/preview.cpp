@@ -4,17 +4,15 @@
 #include <filesystem>
 
 #include "apps/view/picture.h"
-#include "nef/base/error.h"
 #include "nef/geometry/vectors.h"
+#include "nef/io/file_bytes.h"
 #include "nef/polyhedron.h"
 
 namespace nef::minkowski {
 namespace {
 
 std::string picture_path(const std::string& directory, const std::string& name) {
-  std::error_code error;
-  std::filesystem::create_directories(directory, error);
-  if (error) throw InputError(directory + ": the folder cannot be created (" + error.message() + ")");
+  make_folder(directory);
   return (std::filesystem::path(directory) / (name + ".png")).string();
 }
 

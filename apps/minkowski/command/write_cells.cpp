@@ -120,9 +120,7 @@ WrittenFile write_cells(const std::string& path, std::span<const ConvexCell> cel
     write_mesh_file(path, cells, 0, *format, files, written.offset);
     return written;
   }
-  std::error_code error;
-  std::filesystem::create_directories(path, error);
-  if (error) throw InputError(path + ": the folder cannot be created (" + error.message() + ")");
+  make_folder(path);
   if (const std::string stale = stale_cell(path, cells.size(), extension); !stale.empty()) {
     throw InputError(path + ": contains " + stale + " of an earlier run; empty it or name another folder");
   }

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kPageMargin = 12;    // millimetres, around the board
 constexpr double kLineBelow = 6;      // from the board to the line that is to be measured
+constexpr double kLineWidth = 0.3;    // of that line
 constexpr double kTextSize = 3;       // height of letters
 constexpr double kPoint = 72 / 25.4;  // PDF's units a millimetre
 
@@ -26,42 +27,53 @@ std::string board_caption(const Board& board) {
   return fmt::format("{}; print at 100 %: the line is {} mm long", board.text(), measured_length(board));
 }
 
-/// Where the board lies on its page: its upper left corner, y down.
-struct SheetPlace {
-  double x = 0, y = 0;
+/// All that is on a page.
+struct Sheet {
+  PageSize page;
+  std::vector<BlackTile> black;      // the board and the line below it, from the upper left corner of the page
+  double text_left = 0, text_y = 0;  // where the caption begins, on its base line
 };
 
-SheetPlace sheet_place(const PageSize& page, const Board& board) {
-  return {(page.width - board.width()) / 2, (page.height - board.height()) / 2};
+Sheet sheet_of(const Board& board) {
+  Sheet sheet{page_for(board), black_tiles(board)};
+  const double left = (sheet.page.width - board.width()) / 2;
+  const double top = (sheet.page.height - board.height()) / 2;
+  for (BlackTile& tile : sheet.black) {
+    tile.x += left;
+    tile.y += top;
+  }
+  const double below = top + board.height() + kLineBelow;
+  const double length = measured_length(board);
+  sheet.black.push_back({left, below, length, kLineWidth});
+  for (const double end : {0.0, length - kLineWidth}) {
+    sheet.black.push_back({left + end, below - 1, kLineWidth, 2 + kLineWidth});
+  }
+  sheet.text_left = left;
+  sheet.text_y = below + 1.5 + kTextSize;
+  return sheet;
 }
 
-std::string pdf_content(const Board& board, const PageSize& page) {
-  const SheetPlace place = sheet_place(page, board);
-  const auto rectangle = [&](double x, double y, double width, double height) {
-    return fmt::format("{:.4f} {:.4f} {:.4f} {:.4f} re\n", x * kPoint, (page.height - y - height) * kPoint,
-                       width * kPoint, height * kPoint);
-  };
+std::string pdf_content(const Board& board, const Sheet& sheet) {
+  const auto up = [&sheet](double y) { return (sheet.page.height - y) * kPoint; };
   std::string text;
-  for (const BlackTile& tile : black_tiles(board)) {
-    text += rectangle(place.x + tile.x, place.y + tile.y, tile.width, tile.height);
+  for (const BlackTile& tile : sheet.black) {
+    text += fmt::format("{:.4f} {:.4f} {:.4f} {:.4f} re\n", tile.x * kPoint, up(tile.y + tile.height),
+                        tile.width * kPoint, tile.height * kPoint);
   }
-  const double below = place.y + board.height() + kLineBelow;
-  text += rectangle(place.x, below, measured_length(board), 0.3);
-  for (const double end : {0.0, measured_length(board) - 0.3}) text += rectangle(place.x + end, below - 1, 0.3, 2.3);
   text += "f\n";  // one path: no seams between tiles
-  text += fmt::format("BT /F {:.2f} Tf {:.2f} {:.2f} Td ({}) Tj ET\n", kTextSize * kPoint, place.x * kPoint,
-                      (page.height - below - 1.5 - kTextSize) * kPoint, board_caption(board));
+  text += fmt::format("BT /F {:.2f} Tf {:.2f} {:.2f} Td ({}) Tj ET\n", kTextSize * kPoint, sheet.text_left * kPoint,
+                      up(sheet.text_y), board_caption(board));
   return text;
 }
 
 std::string board_pdf(const Board& board) {
-  const PageSize page = page_for(board);
-  const std::string content = pdf_content(board, page);
+  const Sheet sheet = sheet_of(board);
+  const std::string content = pdf_content(board, sheet);
   const std::array<std::string, 5> objects{
       "<< /Type /Catalog /Pages 2 0 R >>", "<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
       fmt::format("<< /Type /Page /Parent 2 0 R /MediaBox [0 0 {:.4f} {:.4f}] /Contents 4 0 R "
                   "/Resources << /Font << /F 5 0 R >> >> >>",
-                  page.width * kPoint, page.height * kPoint),
+                  sheet.page.width * kPoint, sheet.page.height * kPoint),
       fmt::format("<< /Length {} >>\nstream\n{}endstream", content.size(), content),
       "<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica >>"};
   std::string file = "%PDF-1.4\n";
@@ -76,23 +88,16 @@ std::string board_pdf(const Board& board) {
 }
 
 std::string board_svg(const Board& board) {
-  const PageSize page = page_for(board);
-  const SheetPlace place = sheet_place(page, board);
-  const auto rectangle = [](double x, double y, double width, double height) {
-    return fmt::format("M{:.5g} {:.5g}h{:.5g}v{:.5g}h{:.5g}z", x, y, width, height, -width);
-  };
+  const Sheet sheet = sheet_of(board);
   std::string path;
-  for (const BlackTile& tile : black_tiles(board)) {
-    path += rectangle(place.x + tile.x, place.y + tile.y, tile.width, tile.height) + "\n";
+  for (const BlackTile& tile : sheet.black) {
+    path += fmt::format("M{:.5g} {:.5g}h{:.5g}v{:.5g}h{:.5g}z\n", tile.x, tile.y, tile.width, tile.height, -tile.width);
   }
-  const double below = place.y + board.height() + kLineBelow;
-  path += rectangle(place.x, below, measured_length(board), 0.3);
-  for (const double end : {0.0, measured_length(board) - 0.3}) path += rectangle(place.x + end, below - 1, 0.3, 2.3);
   return fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n<path d=\"{2}\"/>\n"
       "<text x=\"{3}\" y=\"{4}\" font-family=\"sans-serif\" font-size=\"{5}\">{6}</text>\n</svg>\n",
-      page.width, page.height, path, place.x, below + 1.5 + kTextSize, kTextSize, board_caption(board));
+      sheet.page.width, sheet.page.height, path, sheet.text_left, sheet.text_y, kTextSize, board_caption(board));
 }
 
 std::string board_png(const Board& board) {

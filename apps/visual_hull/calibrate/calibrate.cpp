@@ -131,18 +131,23 @@ std::string why_of_most(const BoardSeries& series) {
   return "there are too few photographs";
 }
 
+// The boards that are left, enough of them.
+std::vector<const SeenBoard*> enough_boards(const BoardSeries& series) {
+  std::vector<const SeenBoard*> boards = series.boards();
+  if (boards.size() < kFewestPlaced) {
+    throw nef::InputError(
+        fmt::format("the board is found in {} of {} photographs, {} are needed ({}); does --board say "
+                    "what was printed?",
+                    boards.size(), series.views.size(), kFewestPlaced, why_of_most(series)));
+  }
+  return boards;
+}
+
 // The lens of a series, and its poses.
-BoardLens lens_of_series(BoardSeries& series, std::size_t fewest) {
+BoardLens lens_of_series(BoardSeries& series) {
   BoardLens lens;
   for (int round = 0; round < kCalibrationRounds; ++round) {
-    const std::vector<const SeenBoard*> boards = series.boards();
-    if (boards.size() < fewest) {
-      throw nef::InputError(
-          fmt::format("the board is found in {} of {} photographs, {} are needed ({}); does --board say "
-                      "what was printed?",
-                      boards.size(), series.views.size(), fewest, why_of_most(series)));
-    }
-    lens = fit_lens(boards, series.size);
+    lens = fit_lens(enough_boards(series), series.size);
     if (!std::isfinite(lens.error_px)) {
       throw nef::InputError(
           "the boards fit no lens: take photographs that show the board tilted, in several directions");
@@ -213,10 +218,10 @@ Calibration calibrate(const std::vector<fs::path>& photographs, const Board& boa
   Calibration calibration;
   BoardSeries series = look_for_boards(photographs, board, monitor);
   if (lens.empty()) {
-    calibration.lens = lens_of_series(series, kFewestPlaced);
+    calibration.lens = lens_of_series(series);
   } else {
     BoardSeries other = look_for_boards(lens, board, monitor);
-    calibration.lens = lens_of_series(other, kFewestPlaced);
+    calibration.lens = lens_of_series(other);
     if (other.size.width != series.size.width || other.size.height != series.size.height) {
       throw nef::InputError(
           fmt::format("--lens: its photographs have {} x {} pixels, the others {} x {}: the same camera "
@@ -227,13 +232,7 @@ Calibration calibrate(const std::vector<fs::path>& photographs, const Board& boa
     refuse_outliers(series);
     calibration.lens_views = std::move(other.views);
   }
-  const std::size_t left = series.boards().size();
-  if (left < kFewestPlaced) {
-    throw nef::InputError(
-        fmt::format("the board is found in {} of {} photographs, {} are needed ({}); does --board say "
-                    "what was printed?",
-                    left, series.views.size(), kFewestPlaced, why_of_most(series)));
-  }
+  enough_boards(series);
   calibration.error_px = series_error(series);
   calibration.views = std::move(series.views);
   calibration.notes = calibration_notes(calibration, lens.empty());

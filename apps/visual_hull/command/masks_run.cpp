@@ -89,7 +89,8 @@ int run(MaskArguments& a) {
   session.spent("op", cutting.seconds());
   session.note_all(cut.notes);
   make_folder("-o", folder);
-  make_folder("--overview", fs::path(a.overview).parent_path());
+  const fs::path beside = fs::path(a.overview).parent_path();
+  if (!beside.empty()) make_folder("--overview", beside);
   session.show_phase("writing " + session.output);
   const nef::Stopwatch writing;
   write_masks(cut, photographs, targets, a.overview);

@@ -5,8 +5,8 @@
 #include <opencv2/imgproc.hpp>
 
 #include "apps/view/image.h"
+#include "apps/visual_hull/command/photographs.h"
 #include "apps/visual_hull/polygon/edge_grid.h"
-#include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 #include "nef/polyhedron.h"
 
@@ -114,11 +114,7 @@ std::string png_of(const cv::Mat& picture) {
 }
 
 void write_overlays(const Result& result, PixelOrigin origin, const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder, error)) {
-    throw nef::InputError("--overlay: cannot make the directory " + folder.string());
-  }
+  make_folder("--overlay", folder);
   for (std::size_t i = 0; i < result.views.size(); ++i) {
     const std::filesystem::path file = folder / file_name(result.views[i], i);
     nef::write_file(file.string(), png_of(draw_overlay(result.views[i], result.hull, origin)));

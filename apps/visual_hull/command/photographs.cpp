@@ -22,9 +22,9 @@ std::vector<fs::path> photographs_of(const std::vector<std::string>& words) {
 
 void make_folder(const std::string& option, const fs::path& folder) {
   std::error_code error;
-  if (folder.empty() || fs::is_directory(folder, error)) return;
   fs::create_directories(folder, error);
-  if (error) throw nef::InputError(option + ": cannot make the directory " + folder.string());
+  if (!fs::is_directory(folder, error))
+    throw nef::InputError(option + ": cannot make the directory " + folder.string());
 }
 
 }  // namespace visual_hull

@@ -117,8 +117,8 @@ cv::Mat inner_half(const cv::Mat& region) {
   return depth > deepest / 2;
 }
 
-// A mask with what the others say about it.
-cv::Mat repaired(const cv::Mat& picture, const cv::Mat& mask, const SeenGrid& seen) {
+// A mask with what the others say about it. The photograph is read only if colours have to decide.
+cv::Mat repaired(const std::filesystem::path& photograph, const cv::Mat& mask, const SeenGrid& seen) {
   cv::Mat result = mask & seen.possible;
   const cv::Mat missing = missing_from(result, seen);
   if (cv::countNonZero(missing) == 0) return result;
@@ -132,7 +132,7 @@ cv::Mat repaired(const cv::Mat& picture, const cv::Mat& mask, const SeenGrid& se
   seeds.setTo(cv::Scalar(cv::GC_FGD), result);
   seeds.setTo(cv::Scalar(cv::GC_PR_FGD), missing);
   if (cv::countNonZero(result) == 0) seeds.setTo(cv::Scalar(cv::GC_FGD), inner_half(missing));
-  const cv::Mat object = cut_by_seeds(picture(around), seeds(around));
+  const cv::Mat object = cut_by_seeds(read_picture(photograph)(around), seeds(around));
   cv::Mat added = missing(around) & object;
   cv::morphologyEx(added, added, cv::MORPH_OPEN, disc(1));
   cv::bitwise_or(result(around), added, result(around));
@@ -168,7 +168,7 @@ std::vector<MaskChange> repair_masks(const std::vector<PhotographedView>& views,
     nef::parallel_for(views.size(), monitor, [&](std::size_t i, const nef::Monitor&) {
       const SeenGrid seen = seen_by(views[i], i, origin, cameras[i], votes, masks[i].size());
       if (cv::countNonZero(seen.covered) == 0) return;  // the others agree on nothing
-      masks[i] = repaired(read_picture(views[i].photograph), masks[i], seen);
+      masks[i] = repaired(views[i].photograph, masks[i], seen);
     });
   }
   std::vector<MaskChange> changes;

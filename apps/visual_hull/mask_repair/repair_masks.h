@@ -34,7 +34,8 @@ struct MaskChange {
 /// decided by their colours (GrabCut), with the rest of the mask as what is sure. All other pixels stay as they are.
 /// Twice, since what has been repaired votes better. Views without a pixel have no vote, and the inner half of what the
 /// others allow counts as sure there. Nothing changes with fewer than four votes. O(pixels) a view, and 2 M points of a
-/// grid a view at most. Throws InputError for a photograph that cannot be read.
+/// grid a view at most. Throws InputError for a photograph that is needed and
+/// cannot be read.
 std::vector<MaskChange> repair_masks(const std::vector<PhotographedView>& views, PixelOrigin origin,
                                      std::vector<cv::Mat>& masks, const nef::Monitor& monitor = {});
 

@@ -52,10 +52,6 @@ std::string ignored_text(const std::vector<std::string>& names) {
   return text;
 }
 
-}  // namespace
-
-namespace {
-
 Sight parallel_sight_of(const Camera& camera) {
   const Eigen::Matrix<double, 3, 4> p = to_doubles(camera);
   const Rational3 at = camera.sight_point(Point2::from_doubles(0, 0), Rational(0));

@@ -117,9 +117,7 @@ void run_split(Session& session, const SplitFlags& flags) {
     return store_as_one(session, parts, split_s);
   }
   const std::filesystem::path folder = session.output;
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw InputError(session.output + ": the folder cannot be created (" + error.message() + ")");
+  make_folder(session.output);
   if (session.format.empty()) session.format = "off";
   Json files = Json::array();
   for (std::size_t i = 0; i < parts.size(); ++i) {

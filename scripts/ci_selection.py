@@ -1,52 +1,32 @@
 #!/usr/bin/env python3
 """What .ci/run looks at: what is due, what changed since its last green run, and as much of the rest as there is time for.
 
-A run may leave out what it has no time for, but not for long: what two runs in a row have left out is due, and a due
-item is looked at whatever the time. So nothing stays unseen for more than two runs. Who was left out how often stands in
-build/ci-unseen.json. A fresh clone has no such file; there, the number n of commits in the history of HEAD takes its
-place: the items fall into three parts by a checksum of their names, and part n mod 3 is due. So three fresh clones of
-successive commits see everything between them. (Fresh clones of every third commit only would see the same part each
-time: keep build/ci-unseen.json between runs there.) Nothing depends on the clock but how much fits.
+A run may leave out what it has no time for, but not for long: what two runs in a row have left out is due. Due items come
+first, and a run that does not reach all of them fails. So nothing stays unseen for more than two runs. Who was left out how
+often stands in build/ci-unseen.json. A fresh clone has no such file; there, the number n of commits in the history of HEAD
+takes its place: the items fall into three parts by a checksum of their names, and part n mod 3 is due. So three fresh
+clones of successive commits see everything between them. (Fresh clones of every third commit only would see the same part
+each time: keep build/ci-unseen.json between runs there.) Nothing depends on the clock but how much fits.
 
 The last green run is, in this order: the commit in NEF_CI_BASE, the commit that a green run left in build/ci-green, or,
 in a fresh clone, which knows no runs, the state before the last commits (HISTORY of them).
 
-Usage: ci_selection.py base                     the commit, and how it was found
-       ci_selection.py tests SECONDS            lines "run NAME" and "left NAME": test programs for the sanitizers, which
-                                                take so many CPU seconds together to build and run
-       ci_selection.py seen FILE                records that the items in FILE, a line each, were looked at to the end
-       ci_selection.py green                    records that HEAD is green
+Usage: ci_selection.py base     the commit, and how it was found
+       ci_selection.py green    records that HEAD is green
 """
+import concurrent.futures
 import json
 import os
 import subprocess
 import sys
+import time
 import zlib
+from collections.abc import Callable
 
 HISTORY = 25
 RECORD = "build/ci-green"
 UNSEEN = "build/ci-unseen.json"  # item: how many runs in a row have left it out
 DUE = 2  # so many, and the next run does not
-
-# Test programs under the sanitizers: CPU seconds that it takes there to build what the stage before has not built, and to
-# run them; and the folders that they are about. The core's are always looked at. The stage prints what a program took; what
-# is said here is to be no less.
-CORE = {
-    "test_core": (60, 75),
-    "test_laws": (20, 10),
-    "test_query": (25, 40),
-    "test_tiles": (15, 160),
-    "test_io": (50, 130),
-}
-POOL = {
-    "test_minkowski": (60, 160, "apps/minkowski/", "tests/minkowski/"),
-    "test_visual_hull": (60, 100, "apps/visual_hull/", "tests/visual_hull/"),
-    "test_planner": (90, 450, "apps/planner/", "tests/planner/"),
-    "test_view": (30, 20, "apps/view/", "tests/view/"),
-    "test_nef_mpi": (20, 300, "apps/nef_mpi/", "tests/nef_mpi/"),
-    "test_remeshing": (20, 20, "apps/remeshing/", "tests/remeshing/"),
-    "test_command": (40, 250, "apps/nef/", "apps/nef/command/", "apps/program/", "tests/command/"),
-}
 
 
 def git(*arguments: str) -> str:
@@ -95,44 +75,45 @@ def record(runs: dict[str, int]) -> None:
         json.dump(dict(sorted(runs.items())), file, indent=0)
 
 
-def unseen(items: list[str]) -> dict[str, int]:
-    """How many runs have left each item out; where no run is known of, by the number of commits (see above)."""
+def unseen(items: dict[str, list[str]]) -> dict[str, int]:
+    """How many runs have left out each item, or that of its parts which was left out most often; where no run is known of,
+    by the number of commits (see above)."""
     known = recorded()
     commits = int(git("rev-list", "--count", "HEAD") or 0)
-    return {item: known[item] if item in known else (zlib.crc32(item.encode()) - commits) % 3 for item in items}
+    result = {}
+    for item, parts in items.items():
+        runs = [known[part] for part in parts if part in known]
+        result[item] = max(runs) if runs else (zlib.crc32(min(parts).encode()) - commits) % 3
+    return result
 
 
-def choose(costs: dict[str, int], first: set[str], budget: float, parts: dict[str, list[str]] | None = None) -> list[str]:
-    """The items to look at now: all that are due, then those of `first`, then the others, each group from what was left
-    out most often, as long as the budget is enough. An item may stand for several parts, by which it is known from run to
-    run. Counts all as left out; `seen` takes that back."""
-    parts = parts or {item: [item] for item in costs}
-    runs = unseen([part for item in costs for part in parts[item]])
-    age = {item: max(runs[part] for part in parts[item]) for item in costs}
-    order = sorted(costs, key=lambda item: (age[item] < DUE, item not in first, -age[item], zlib.crc32(item.encode())))
-    chosen = []
+def in_order(items: dict[str, list[str]], first: set[str]) -> tuple[list[str], set[str]]:
+    """The items: all that are due, then those of `first`, then the others, each group from what was left out most often;
+    and those that are due."""
+    age = unseen(items)
+    due = {item for item in items if age[item] >= DUE}
+    return sorted(items, key=lambda item: (item not in due, item not in first, -age[item], zlib.crc32(item.encode()))), due
+
+
+def look_at(items: dict[str, list[str]], first: set[str], seconds: float, look: Callable[[str], bool]) -> bool:
+    """Looks at items on all cores, in that order, and begins none when so many seconds are over. An item is known from run
+    to run by its parts. `look(item)` tells whether it came to an end. Prints what was left out, and returns whether nothing
+    is among it that was due."""
+    order, due = in_order(items, first)
+    record(recorded() | {part: runs + 1 for item, runs in unseen(items).items() for part in items[item]})
+    end = time.monotonic() + seconds
+
+    def begin(item: str) -> bool:
+        return time.monotonic() < end and look(item)
+
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        done = {item for item, ended in zip(order, pool.map(begin, order)) if ended}
+    record(recorded() | {part: 0 for item in done for part in items[item]})
     for item in order:
-        if age[item] >= DUE or costs[item] <= budget:
-            budget -= costs[item]
-            chosen.append(item)
-    record(recorded() | {part: count + 1 for part, count in runs.items()})
-    return chosen
-
-
-def seen(items: list[str]) -> None:
-    """These were looked at to the end."""
-    record(recorded() | {item: 0 for item in items})
-
-
-def tests(seconds: int) -> None:
-    """The core's programs, and of the others what choose() says."""
-    files = changed()
-    touched = {name for name, (_, _, *folders) in POOL.items() if any(file.startswith(tuple(folders)) for file in files)}
-    costs = {name: build + run for name, (build, run, *_) in POOL.items()}
-    chosen = list(CORE) + choose(costs, touched, seconds - sum(build + run for build, run in CORE.values()))
-    # The longest first, so that no core is left waiting for the last one.
-    for name in sorted(CORE | POOL, key=lambda name: -(CORE | POOL)[name][1]):
-        print(f"{'run' if name in chosen else 'left'} {name}")
+        if item not in done:
+            print(f"{'LEFT OUT THOUGH DUE' if item in due else 'left out today'}: {item}", flush=True)
+    print(f"looked at {len(done)} of {len(items)}", flush=True)
+    return due <= done
 
 
 def main() -> int:
@@ -140,11 +121,6 @@ def main() -> int:
     if command == "base":
         commit, why = base()
         print(f"{commit[:12] or '-'} ({why}); {len(changed())} files changed")
-    elif command == "tests":
-        tests(int(sys.argv[2]))
-    elif command == "seen":
-        with open(sys.argv[2], encoding="utf-8") as file:
-            seen(file.read().split())
     elif command == "green":
         os.makedirs("build", exist_ok=True)
         with open(RECORD, "w", encoding="utf-8") as file:

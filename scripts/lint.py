@@ -5,9 +5,9 @@ Usage: lint.py BUILD_DIRECTORY [--seconds N] [PART...]
 
 The build tree is best one of NEF_COMPILE_TOGETHER: what headers cost is paid once for some forty sources, so that all of
 them are looked at in the time that a tenth would take one by one. With PARTs, only translation units whose paths have
-one of them. With --seconds, as many units as take about so much of CPU together: those first that runs have left out (see
-ci_selection.py), then those that changes concern, then others; what is left out is printed. Exits 1 if there are findings, and where clang-tidy
-did not come to its end.
+one of them. With --seconds, no unit is begun after so many: those come first that runs have left out, then those that
+changes concern, then the others (see ci_selection.py). Exits 1 if there are findings, where clang-tidy did not come to its
+end, and where a unit was left out that was due.
 """
 import argparse
 import concurrent.futures
@@ -16,6 +16,7 @@ import os
 import re
 import subprocess
 import sys
+import threading
 import time
 
 import ci_selection
@@ -23,7 +24,6 @@ import ci_selection
 FOLDERS = ("nef", "apps", "fuzz", "python", "tests", "bench")
 WARNING = re.compile(r"^(/\S+:\d+:\d+): (?:warning|error): ", re.MULTILINE)
 # What stands in a unit is no slip: it includes sources.
-SECONDS_PER_SOURCE = 2.5  # of CPU, on average
 OPTIONS = ["--quiet", "--extra-arg=-Wno-unknown-warning-option", "--checks=-bugprone-suspicious-include"]
 
 
@@ -58,17 +58,6 @@ def concerned(every: dict[str, list[str]], files: list[str]) -> set[str]:
     return result
 
 
-def of_today(every: dict[str, list[str]], seconds: int) -> dict[str, list[str]]:
-    """As many units as there is time for, and a line for each that is left out."""
-    first = concerned(every, ci_selection.changed())
-    costs = {unit: len(sources) for unit, sources in every.items()}
-    # Known by their sources: units are cut anew where one is added.
-    chosen = set(ci_selection.choose(costs, first, seconds / SECONDS_PER_SOURCE, every))
-    for unit in sorted(set(every) - chosen):
-        print(f"left out today{', though changed' if unit in first else ''}: {unit}, {len(every[unit])} sources")
-    return {unit: sources for unit, sources in every.items() if unit in chosen}
-
-
 def stand_in_for_made_sources(chosen: dict[str, list[str]]) -> None:
     """What is made while building is no source of ours, but is included."""
     for sources in chosen.values():
@@ -87,25 +76,21 @@ def main() -> int:
     build, parts = arguments.build, arguments.parts
     chosen = {name: sources for name, sources in units(build).items()
               if not parts or any(part in name for part in parts)}
-    if arguments.seconds is not None:
-        chosen = of_today(chosen, arguments.seconds)
     stand_in_for_made_sources(chosen)
     headers = f"--header-filter=^{re.escape(os.getcwd())}/({'|'.join(FOLDERS)})/.*\\.(h|cpp)$"
 
-    def check(unit: str) -> tuple[str, subprocess.CompletedProcess, float]:
+    places = set()
+    printing = threading.Lock()
+
+    def check(unit: str) -> bool:
+        """Whether clang-tidy came to its end; prints its findings."""
         begin = time.monotonic()
         command = ["clang-tidy", *OPTIONS, headers, "-p", build, unit]
-        return unit, subprocess.run(command, capture_output=True, text=True, check=False), time.monotonic() - begin
-
-    places = set()
-    broken = 0
-    done: list[str] = []
-    largest_first = sorted(chosen, key=lambda unit: -len(chosen[unit]))
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for unit, result, seconds in pool.map(check, largest_first):
+        result = subprocess.run(command, capture_output=True, text=True, check=False)
+        starts = [match.start() for match in WARNING.finditer(result.stdout)]
+        with printing:
             if os.environ.get("NEF_LINT_TIMES"):
-                print(f"{seconds:6.1f} s {unit}", flush=True)
-            starts = [match.start() for match in WARNING.finditer(result.stdout)]
+                print(f"{time.monotonic() - begin:6.1f} s {unit}", flush=True)
             for start, end in zip(starts, starts[1:] + [len(result.stdout)]):
                 finding = result.stdout[start:end]
                 place = finding.splitlines()[0]
@@ -113,16 +98,21 @@ def main() -> int:
                 if ours and place not in places:
                     places.add(place)
                     print(finding.rstrip(), flush=True)
-            if result.returncode != 0 and not starts:
-                broken += 1
-                print(f"clang-tidy ended with {result.returncode} at {unit}\n{result.stderr[-2000:]}", flush=True)
-            else:
-                done += chosen[unit]
-    if arguments.seconds is not None:
-        ci_selection.seen(done)
-    count = sum(len(sources) for sources in chosen.values())
-    print(f"clang-tidy: {count} sources in {len(chosen)} units, {len(places)} findings")
-    return 1 if places or broken else 0
+            if result.returncode == 0 or starts:
+                return True
+            broken.append(unit)
+            print(f"clang-tidy ended with {result.returncode} at {unit}\n{result.stderr[-2000:]}", flush=True)
+            return False
+
+    broken: list[str] = []
+    if arguments.seconds is None:
+        largest_first = sorted(chosen, key=lambda unit: -len(chosen[unit]))
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            complete = all(list(pool.map(check, largest_first)))
+    else:
+        complete = ci_selection.look_at(chosen, concerned(chosen, ci_selection.changed()), arguments.seconds, check)
+    print(f"clang-tidy: {len(chosen)} units, {len(places)} findings")
+    return 0 if complete and not places and not broken else 1
 
 
 if __name__ == "__main__":

@@ -44,10 +44,12 @@ def items(value, count=None):
 
 
 def number(value):
-    """Each number has one spelling, a fraction in lowest terms, so that equal claims have equal digests."""
+    """Each number has one spelling, a fraction in lowest terms, so that equal claims have equal digests. Integers are of
+    type int, which is faster; so whoever divides makes a Fraction first."""
     well_formed = isinstance(value, str) and re.fullmatch("-?[0-9]+(/[1-9][0-9]*)?", value)
-    require(well_formed and str(Fraction(value)) == value, f"numbers are strings such as '1/3', not {value!r}")
-    return Fraction(value)
+    fraction = Fraction(value) if well_formed else None
+    require(well_formed and str(fraction) == value, f"numbers are strings such as '1/3', not {value!r}")
+    return fraction.numerator if fraction.denominator == 1 else fraction
 
 
 def numbers(value, count=None):
@@ -75,6 +77,12 @@ def minus(a, b):
     return [x - y for x, y in zip(a, b)]
 
 
+def integral(a):
+    """The vector times the least positive number that makes all its components integers."""
+    scale = math.lcm(*(x.denominator for x in a))
+    return [int(x * scale) for x in a]
+
+
 def cross(a, b):
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
@@ -86,12 +94,12 @@ def between(a, b, s):
 def mixed_rotation(p, q):
     """B(p, q) / <p, q>, where B(q, q) / <q, q> is the rotation matrix of q and B is symmetric and bilinear."""
     def m(i, j):
-        return (p[i] * q[j] + p[j] * q[i]) / 2
+        return p[i] * q[j] + p[j] * q[i]
     w, x, y, z = (m(i, i) for i in range(4))
     rows = [[w + x - y - z, 2 * (m(1, 2) - m(0, 3)), 2 * (m(1, 3) + m(0, 2))],
             [2 * (m(1, 2) + m(0, 3)), w - x + y - z, 2 * (m(2, 3) - m(0, 1))],
             [2 * (m(1, 3) - m(0, 2)), 2 * (m(2, 3) + m(0, 1)), w - x - y + z]]
-    return [[entry / dot(p, q) for entry in row] for row in rows]
+    return [[Fraction(entry) / (2 * dot(p, q)) for entry in row] for row in rows]
 
 
 def placed(turn, vertex, position):
@@ -325,6 +333,7 @@ def check_infeasible(claim, witness):
 def outer_planes(vectors):
     """The outward normals of the planes through two of the vectors that have all of them on one side: those around the
     cone that the vectors span, if that is neither flat nor all of space."""
+    vectors = [integral(v) for v in vectors]
     found = []
     for i, u in enumerate(vectors):
         for v in vectors[:i]:

@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
 """Tests of ci_selection: nothing is left out for more than two runs in a row, with a record and without one."""
+import contextlib
+import io
 import os
 import random
 import tempfile
 import unittest
+from unittest import mock
 
 import ci_selection
 
@@ -18,43 +21,62 @@ class Selection(unittest.TestCase):
         self.commits = 1000
         ci_selection.git = lambda *arguments: str(self.commits)
 
-    def test_nothing_is_left_out_three_times_in_a_row(self) -> None:
+    def look(self, items: dict[str, list[str]], first: set[str], most: int) -> tuple[list[str], bool]:
+        """What is looked at, one after the other, when there is time for so many items."""
+        looked: list[str] = []
+        clock = iter([0.0] * (most + 1) + [1.0] * len(items))
+        with mock.patch("time.monotonic", lambda: next(clock)), mock.patch("os.cpu_count", lambda: 1), \
+                contextlib.redirect_stdout(io.StringIO()):
+            complete = ci_selection.look_at(items, first, 0.5, lambda item: not looked.append(item))
+        return looked, complete
+
+    def test_nothing_is_left_out_three_times_in_a_row_by_runs_that_pass(self) -> None:
         rng = random.Random(1)
-        costs = {f"item{i}": rng.randint(1, 300) for i in range(40)}
-        left_out = dict.fromkeys(costs, 0)
+        items = {f"item{i}": [f"item{i}"] for i in range(40)}
+        left_out = dict.fromkeys(items, 0)
         for _ in range(60):
             self.commits += rng.randint(0, 6)  # several runs of one commit, or few runs of many
-            first = {item for item in costs if rng.random() < 0.5}
-            chosen = ci_selection.choose(costs, first, rng.choice([0, 100, 1000]))
-            if rng.random() < 0.8:  # otherwise the run ended before its end, and nothing was seen
-                ci_selection.seen(chosen)
-                for item in costs:
-                    left_out[item] = 0 if item in chosen else left_out[item] + 1
-            self.assertLessEqual(max(left_out.values()), ci_selection.DUE)
+            first = {item for item in items if rng.random() < 0.5}
+            looked, complete = self.look(items, first, rng.choice([5, 20, 35]))
+            for item in items:
+                left_out[item] = 0 if item in looked else left_out[item] + 1
+            if complete:
+                self.assertLessEqual(max(left_out.values()), ci_selection.DUE)
 
     def test_fresh_clones_of_three_successive_commits_see_everything(self) -> None:
-        costs = {f"nef/folder/source{i}.cpp": 1 for i in range(300)}
+        # A unit of several sources is due by one of them, so not each time.
+        items = {f"unit{i}": [f"nef/folder/source{i}{k}.cpp" for k in "abcdefgh"] for i in range(300)}
         seen: set[str] = set()
         for _ in range(3):
             if os.path.exists(ci_selection.UNSEEN):
                 os.remove(ci_selection.UNSEEN)
-            chosen = ci_selection.choose(costs, set(), 0)
-            self.assertLess(len(chosen), 150)
-            seen.update(chosen)
+            due = ci_selection.in_order(items, set())[1]
+            self.assertLess(len(due), 150)
+            seen |= due
             self.commits += 1
-        self.assertEqual(seen, set(costs))
+        self.assertEqual(seen, set(items))
 
     def test_what_changed_comes_before_the_rest_and_after_what_is_due(self) -> None:
-        costs = {"a": 5, "b": 5, "c": 5}
+        items = {"a": ["a"], "b": ["b"], "c": ["c"]}
         ci_selection.record({"a": 2, "b": 0, "c": 1})
-        self.assertEqual(ci_selection.choose(costs, {"b"}, 10), ["a", "b"])
-        self.assertEqual(ci_selection.recorded(), {"a": 3, "b": 1, "c": 2})
-        ci_selection.seen(["a", "b"])
-        self.assertEqual(ci_selection.choose(costs, {"b"}, 5), ["c"])
+        self.assertEqual(self.look(items, {"b"}, 2), (["a", "b"], True))
+        self.assertEqual(ci_selection.recorded(), {"a": 0, "b": 0, "c": 2})
+        self.assertEqual(self.look(items, {"b"}, 1), (["c"], True))
+
+    def test_a_run_that_does_not_reach_what_is_due_fails(self) -> None:
+        ci_selection.record({"a": 2, "b": 3})
+        self.assertEqual(self.look({"a": ["a"], "b": ["b"]}, set(), 1), (["b"], False))
+        self.assertEqual(ci_selection.recorded(), {"a": 3, "b": 0})
+
+    def test_what_does_not_come_to_its_end_was_not_looked_at(self) -> None:
+        ci_selection.record({"a": 2})
+        with contextlib.redirect_stdout(io.StringIO()):
+            self.assertFalse(ci_selection.look_at({"a": ["a"]}, set(), 100, lambda item: False))
+        self.assertEqual(ci_selection.recorded(), {"a": 3})
 
     def test_a_unit_is_as_old_as_its_oldest_part(self) -> None:
         ci_selection.record({"x": 0, "y": 2, "z": 0})
-        self.assertEqual(ci_selection.choose({"one": 2, "two": 1}, set(), 0, {"one": ["x", "y"], "two": ["z"]}), ["one"])
+        self.assertEqual(ci_selection.in_order({"one": ["x", "y"], "two": ["z"]}, set())[1], {"one"})
 
     def test_a_damaged_record_counts_as_none(self) -> None:
         os.makedirs(os.path.dirname(ci_selection.UNSEEN))

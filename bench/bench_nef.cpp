@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // nef_bench_nef CASE_DIRECTORY [REPEAT [THREADS]]: this library on one case, on so many threads.
-#include <cstdlib>
-#include <exception>
 #include <span>
 #include <string>
 
@@ -99,18 +97,8 @@ Report run(const std::string& directory, int repeat, const Monitor& monitor) {
 }  // namespace nef::bench
 
 int main(int argc, char** argv) {
-  nef::keep_freed_memory();
-  if (argc < 2) {
-    std::fprintf(stderr, "usage: nef_bench_nef CASE_DIRECTORY [REPEAT [THREADS]]\n");
-    return 2;
-  }
-  try {
-    const int repeat = argc > 2 ? std::max(1, std::atoi(argv[2])) : 1;
-    const int threads = argc > 3 ? std::max(1, std::atoi(argv[3])) : 1;
-    nef::bench::run(argv[1], repeat, nef::Monitor().on_threads(static_cast<unsigned>(threads))).print();
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "nef_bench_nef: %s\n", error.what());
-    return 2;
-  }
-  return 0;
+  return nef::bench::engine_main(
+      "nef_bench_nef", argc, argv, [](const std::string& directory, int repeat, int threads) {
+        return nef::bench::run(directory, repeat, nef::Monitor().on_threads(static_cast<unsigned>(threads)));
+      });
 }

@@ -5,10 +5,13 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <fstream>
 #include <string>
 #include <vector>
 
+#include "nef/base/freed_memory.h"
 #include "nef/base/timing/stopwatch.h"
 
 namespace nef::bench {
@@ -56,5 +59,24 @@ struct Report {
         facets, volumes, inside, bytes, peak_kb());
   }
 };
+
+/// The main program of an engine: `run(case_directory, repeat, threads)` makes the report, which is printed. Arguments
+/// are CASE_DIRECTORY [REPEAT [THREADS]], each 1 if left out; what is thrown is printed, and the exit code is 2.
+template <class Run>
+int engine_main(const char* name, int argc, char** argv, const Run& run) {
+  keep_freed_memory();
+  if (argc < 2) {
+    std::fprintf(stderr, "usage: %s CASE_DIRECTORY [REPEAT [THREADS]]\n", name);
+    return 2;
+  }
+  const auto number = [&](int i) { return argc > i ? std::max(1, std::atoi(argv[i])) : 1; };
+  try {
+    run(std::string(argv[1]), number(2), number(3)).print();
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s: %s\n", name, error.what());
+    return 2;
+  }
+  return 0;
+}
 
 }  // namespace nef::bench

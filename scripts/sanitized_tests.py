@@ -48,7 +48,7 @@ def main() -> int:
     parser.add_argument("build")
     parser.add_argument("--seconds", type=float, required=True)
     parser.add_argument("programs", nargs="*")
-    arguments = parser.parse_args()
+    arguments = parser.parse_intermixed_args()
     programs = arguments.programs or sorted(map(os.path.basename, glob.glob(f"{arguments.build}/bin/test_*")))
     every = {f"{program}: {case}": (program, case)
              for program in programs for case in cases(f"{arguments.build}/bin/{program}")}

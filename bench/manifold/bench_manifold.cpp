@@ -4,15 +4,12 @@
 // triangles only; the polygons of our cases are convex and become fans.
 #include <manifold/manifold.h>
 
-#include <cstdlib>
-#include <exception>
 #include <fstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "bench/report.h"
-#include "nef/base/freed_memory.h"
 
 namespace nef::bench {
 namespace {
@@ -116,16 +113,7 @@ Report run(const std::string& directory, int repeat) {
 }  // namespace nef::bench
 
 int main(int argc, char** argv) {
-  nef::keep_freed_memory();
-  if (argc < 2) {
-    std::fprintf(stderr, "usage: nef_bench_manifold CASE_DIRECTORY [REPEAT]\n");
-    return 2;
-  }
-  try {
-    nef::bench::run(argv[1], argc > 2 ? std::max(1, std::atoi(argv[2])) : 1).print();
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "nef_bench_manifold: %s\n", error.what());
-    return 2;
-  }
-  return 0;
+  return nef::bench::engine_main("nef_bench_manifold", argc, argv, [](const std::string& directory, int repeat, int) {
+    return nef::bench::run(directory, repeat);
+  });
 }

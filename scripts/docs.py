@@ -54,6 +54,7 @@ def main() -> int:
         target.parent.mkdir(parents=True, exist_ok=True)
         text = rewritten(page.read_text(encoding="utf-8"), page)
         target.write_text(text + (sys.argv[2] if target.name == "index.md" else ""), encoding="utf-8")
+    shutil.copy(ROOT / "docs" / "site.css", folder)
     shutil.copytree(ROOT / "docs" / "pictures", folder / "pictures", dirs_exist_ok=True)
     return 0
 

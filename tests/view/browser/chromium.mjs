@@ -65,8 +65,9 @@ export class Browser {
     return new Promise((resolve, reject) => this.pending.set(id, { resolve, reject }));
   }
 
-  // Opens a page of a file and waits until the viewer runs.
-  async open(path, width = 1100, height = 760) {
+  // Opens a page of a file, or at an address, and waits until a condition holds: the viewer runs, if none is given.
+  async open(path, width = 1100, height = 760,
+    ready = "window.nefViewer || document.querySelector('#message')?.textContent.includes('cannot')") {
     this.session = undefined;
     const { targetId } = await this.send("Target.createTarget", { url: "about:blank" });
     const { sessionId } = await this.send("Target.attachToTarget", { targetId, flatten: true });
@@ -77,8 +78,8 @@ export class Browser {
     await this.send("Network.enable");
     await this.send("Page.enable");
     await this.send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: 1, mobile: false });
-    await this.send("Page.navigate", { url: pathToFileURL(path).href });
-    await this.until("window.nefViewer || document.querySelector('#message')?.textContent.includes('cannot')");
+    await this.send("Page.navigate", { url: path.startsWith("http") ? path : pathToFileURL(path).href });
+    await this.until(ready);
     await this.frame();
   }
 

@@ -4,7 +4,7 @@
 A run may leave out what it has no time for, but not for long: what two runs in a row have left out is due. Due items come
 first, and a run that does not reach all of them fails. So nothing stays unseen for more than two runs. Who was left out how
 often stands in build/ci-unseen.json. A fresh clone has no such file; there, the number n of commits in the history of HEAD
-takes its place: the items fall into three parts by a checksum of their names, and part n mod 3 is due. So three fresh
+takes its place: the items fall into three parts, and part n mod 3 is due. So three fresh
 clones of successive commits see everything between them. (Fresh clones of every third commit only would see the same part
 each time: keep build/ci-unseen.json between runs there.) Nothing depends on the clock but how much fits.
 
@@ -75,45 +75,46 @@ def record(runs: dict[str, int]) -> None:
         json.dump(dict(sorted(runs.items())), file, indent=0)
 
 
-def unseen(items: dict[str, list[str]]) -> dict[str, int]:
-    """How many runs have left out each item, or that of its parts which was left out most often; where no run is known of,
-    by the number of commits (see above)."""
-    known = recorded()
-    commits = int(git("rev-list", "--count", "HEAD") or 0)
-    result = {}
-    for item, parts in items.items():
-        runs = [known[part] for part in parts if part in known]
-        result[item] = max(runs) if runs else (zlib.crc32(min(parts).encode()) - commits) % 3
-    return result
+class Choice:
+    """The items of a run in their order, all of which count as left out until `end` is called. An item is known from run to
+    run by its parts. Where no run is known of, `third` of its first part, modulo 3, tells in which third it is."""
 
+    def __init__(self, items: dict[str, list[str]], first: set[str], third: Callable[[str], int]) -> None:
+        self.items = items
+        known = recorded()
+        commits = int(git("rev-list", "--count", "HEAD") or 0)
+        age = {}
+        for item, parts in items.items():
+            runs = [known[part] for part in parts if part in known]
+            age[item] = max(runs) if runs else (third(min(parts)) - commits) % 3
+        self.due = {item for item in items if age[item] >= DUE}
+        # All that are due, then those of `first`, then the others, each group from what was left out most often.
+        self.order = sorted(items, key=lambda item: (item not in self.due, item not in first, -age[item],
+                                                     zlib.crc32(item.encode())))
+        record(known | {part: age[item] + 1 for item in items for part in items[item]})
 
-def in_order(items: dict[str, list[str]], first: set[str]) -> tuple[list[str], set[str]]:
-    """The items: all that are due, then those of `first`, then the others, each group from what was left out most often;
-    and those that are due."""
-    age = unseen(items)
-    due = {item for item in items if age[item] >= DUE}
-    return sorted(items, key=lambda item: (item not in due, item not in first, -age[item], zlib.crc32(item.encode()))), due
+    def end(self, done: set[str]) -> bool:
+        """What was looked at to its end; prints what was left out, and returns whether nothing of that was due."""
+        record(recorded() | {part: 0 for item in done for part in self.items[item]})
+        for item in self.order:
+            if item not in done:
+                print(f"{'LEFT OUT THOUGH DUE' if item in self.due else 'left out today'}: {item}", flush=True)
+        print(f"looked at {len(done)} of {len(self.items)}", flush=True)
+        return self.due <= done
 
 
 def look_at(items: dict[str, list[str]], first: set[str], seconds: float, look: Callable[[str], bool]) -> bool:
-    """Looks at items on all cores, in that order, and begins none when so many seconds are over. An item is known from run
-    to run by its parts. `look(item)` tells whether it came to an end. Prints what was left out, and returns whether nothing
-    is among it that was due."""
-    order, due = in_order(items, first)
-    record(recorded() | {part: runs + 1 for item, runs in unseen(items).items() for part in items[item]})
+    """Looks at items in the order of a Choice, on all cores, and begins none when so many seconds are over. `look(item)` tells
+    whether it came to an end. Returns whether nothing was left out that was due. Thirds have equally many items."""
+    numbers = {min(items[item]): number for number, item in enumerate(sorted(items))}
+    choice = Choice(items, first, numbers.__getitem__)
     end = time.monotonic() + seconds
 
     def begin(item: str) -> bool:
         return time.monotonic() < end and look(item)
 
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        done = {item for item, ended in zip(order, pool.map(begin, order)) if ended}
-    record(recorded() | {part: 0 for item in done for part in items[item]})
-    for item in order:
-        if item not in done:
-            print(f"{'LEFT OUT THOUGH DUE' if item in due else 'left out today'}: {item}", flush=True)
-    print(f"looked at {len(done)} of {len(items)}", flush=True)
-    return due <= done
+        return choice.end({item for item, ended in zip(choice.order, pool.map(begin, choice.order)) if ended})
 
 
 def main() -> int:

@@ -50,7 +50,7 @@ class Selection(unittest.TestCase):
         for _ in range(3):
             if os.path.exists(ci_selection.UNSEEN):
                 os.remove(ci_selection.UNSEEN)
-            due = ci_selection.in_order(items, set())[1]
+            due = ci_selection.Choice(items, set(), lambda part: int(part[len("nef/folder/source"):-len("a.cpp")])).due
             self.assertLess(len(due), 150)
             seen |= due
             self.commits += 1
@@ -76,7 +76,7 @@ class Selection(unittest.TestCase):
 
     def test_a_unit_is_as_old_as_its_oldest_part(self) -> None:
         ci_selection.record({"x": 0, "y": 2, "z": 0})
-        self.assertEqual(ci_selection.in_order({"one": ["x", "y"], "two": ["z"]}, set())[1], {"one"})
+        self.assertEqual(ci_selection.Choice({"one": ["x", "y"], "two": ["z"]}, set(), ord).due, {"one"})
 
     def test_a_damaged_record_counts_as_none(self) -> None:
         os.makedirs(os.path.dirname(ci_selection.UNSEEN))

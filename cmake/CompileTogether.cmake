@@ -10,7 +10,7 @@ mark_as_advanced(NEF_SOURCES_TOGETHER)
 
 function(compile_together target)
   get_target_property(type ${target} TYPE)
-  if(NOT type MATCHES "^(STATIC_LIBRARY|EXECUTABLE|MODULE_LIBRARY)$")
+  if(NOT type MATCHES "^(STATIC_LIBRARY|SHARED_LIBRARY|EXECUTABLE|MODULE_LIBRARY)$")
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)

@@ -10,6 +10,7 @@
 
 namespace nef::view {
 
+/// What is on a page.
 struct PageOptions {
   std::string title = "nef view";
   /// Exact coordinates and planes of a layer are left out (and the page says so) if they need more bytes than this.

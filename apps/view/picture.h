@@ -12,6 +12,7 @@
 
 namespace nef::view {
 
+/// From where a picture is taken, and how large it is.
 struct PictureOptions {
   /// The direction from the middle of the scene to the eye, of any length; from the right, the front and above if not
   /// given. z is up.

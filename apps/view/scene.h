@@ -27,6 +27,7 @@ enum class Origin : std::uint8_t {
   kSection,  ///< lies on the section plane
 };
 
+/// A vertex to draw.
 struct SceneVertex {
   Point position{};
   std::uint32_t index = kArtificial;  ///< vertex of the polyhedron's complex
@@ -35,6 +36,7 @@ struct SceneVertex {
   bool isolated = false;  ///< neither an edge nor a facet ends here
 };
 
+/// An edge to draw.
 struct SceneEdge {
   std::uint32_t from = 0;  ///< in Scene::vertices
   std::uint32_t to = 0;
@@ -44,6 +46,7 @@ struct SceneEdge {
   bool isolated = false;  ///< bounds no facet
 };
 
+/// A facet to draw, as consecutive triangles.
 struct SceneFacet {
   std::uint32_t first_triangle = 0;
   std::uint32_t triangle_count = 0;
@@ -54,12 +57,14 @@ struct SceneFacet {
   std::uint32_t below = 0;
 };
 
+/// A volume that facets of the scene bound.
 struct SceneVolume {
   std::uint32_t index = kArtificial;  ///< volume of the polyhedron's complex; kArtificial if it was not looked for
   LabelId mark = 0;                   ///< never kOutside
   bool bounded = true;                ///< false if it is the outer one or was cut off by the visible box
 };
 
+/// What of a set is drawn.
 struct SceneOptions {
   /// Keep only the side a x + b y + c z + d <= 0; cut exactly.
   std::optional<std::array<Rational, 4>> section;

@@ -38,6 +38,7 @@ struct Undecided {
   std::size_t proved_below = 1;  ///< no set of fewer parts than this can leave the others
 };
 
+/// What came of taking parts apart.
 struct Disassembly {
   std::vector<DisassemblyStep> steps;    ///< in order, also those before something stuck
   std::vector<Inseparable> inseparable;  ///< none, and none undecided: all parts are apart at the end

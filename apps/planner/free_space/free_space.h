@@ -74,25 +74,33 @@ class FreeSpace {
   FreeSpace(const FreeSpace&) = delete;
   FreeSpace& operator=(const FreeSpace&) = delete;
 
+  /// The set of free positions, its complex, and how its items are numbered.
+  /// @{
   [[nodiscard]] const Polyhedron& set() const { return free_; }
   [[nodiscard]] const Complex& complex() const { return free_.complex(); }
   [[nodiscard]] const CellNumbering& cells() const { return cells_; }
+  /// @}
   /// Makes the partition and the roadmap unless they are there. O(n log n) expected. If it is interrupted, nothing is
   /// kept.
   void build_roadmap(const Monitor& monitor = {}) const { static_cast<void>(partition(monitor)); }
+  /// Whether the roadmap was made.
   [[nodiscard]] bool has_roadmap() const { return ready_.load(std::memory_order_acquire) != nullptr; }
   /// What making it has taken; 0 without it.
   [[nodiscard]] double roadmap_seconds() const {
     const Partition* ready = ready_.load(std::memory_order_acquire);
     return ready == nullptr ? 0 : ready->seconds;
   }
+  /// The partition of space and the roadmap through its cells, made when first asked for.
+  /// @{
   [[nodiscard]] const SpaceTree& tree() const { return partition({}).tree; }
   [[nodiscard]] const Roadmap& roadmap() const { return partition({}).roadmap; }
+  /// @}
   /// The boundary's items by where they are, made when first asked for: O(n log n), far cheaper than the partition.
   [[nodiscard]] const ItemTree& items() const;
   /// Cubes of space that no boundary enters, made when first asked for: O(n).
   [[nodiscard]] const EmptyGrid& grid(const Monitor& monitor = {}) const;
 
+  /// Whether a cell is free. O(1).
   [[nodiscard]] bool is_free(CellId cell) const { return component_[cell] != kNoComponent; }
   /// Component of a free cell.
   [[nodiscard]] std::uint32_t component(CellId cell) const { return component_[cell]; }
@@ -103,15 +111,19 @@ class FreeSpace {
   /// Index of the tight passage that the cell belongs to; nothing if it is in none.
   [[nodiscard]] std::optional<std::uint32_t> passage_of(CellId cell) const;
 
+  /// The components of the free positions, the passages that are tight, and pairs of volumes that touch. O(1).
+  /// @{
   [[nodiscard]] std::span<const Component> components() const { return components_; }
   [[nodiscard]] std::span<const TightPassage> passages() const { return passages_; }
   [[nodiscard]] std::span<const TouchingVolumes> touching_volumes() const { return touching_; }
+  /// @}
 
   /// The corners of a box that holds the boundary with room to spare. O(n).
   [[nodiscard]] std::array<Rational3, 2> bounds() const { return padded_box(complex()); }
 
   /// The cell of a point: O(log n) expected; with the roadmap about a microsecond or less for doubles.
   [[nodiscard]] CellId locate(const ExactPoint& point) const;
+  /// Whether a point is free; as locate.
   [[nodiscard]] bool is_free(const ExactPoint& point) const { return is_free(locate(point)); }
 
   /// T and J between two free cells; nothing if they are not connected. O(cells).

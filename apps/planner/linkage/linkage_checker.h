@@ -49,6 +49,7 @@ class LinkageChecker {
   /// Joints that stay.
   [[nodiscard]] LinkageVerdict check(std::span<const double> values) const;
 
+  /// What is checked.
   [[nodiscard]] const Linkage& linkage() const { return linkage_; }
 
  private:

@@ -19,6 +19,7 @@ class LinkageStateValidityChecker : public ompl::base::StateValidityChecker {
  public:
   /** \brief Throws InputError if the space is another one. */
   LinkageStateValidityChecker(const ompl::base::SpaceInformationPtr& si, std::shared_ptr<const LinkageChecker> checker);
+  /** \brief Whether joints at these values are in bounds and proved free. */
   bool isValid(const ompl::base::State* state) const override;
   using ompl::base::StateValidityChecker::isValid;
 
@@ -34,6 +35,7 @@ class LinkageMotionValidator : public ompl::base::MotionValidator {
   /** \brief Throws InputError if the space is another one. */
   LinkageMotionValidator(const ompl::base::SpaceInformationPtr& si, std::shared_ptr<const LinkageChecker> checker,
                          CheckLimits limits = CheckLimits::for_planners());
+  /** \brief Whether the whole motion is proved free. */
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2) const override;
   /** \brief lastValid is the end of a part of the motion, from s1, that is proved valid. */
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2,

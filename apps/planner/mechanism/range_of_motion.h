@@ -45,6 +45,7 @@ struct RangePart {
   RangeEnd to;
 };
 
+/// The values of a joint that are free, touch or collide.
 struct RangeOfMotion {
   std::vector<RangePart> parts;  ///< in order, covering the mechanism's range
   std::size_t cells = 0;         ///< that the range was cut into

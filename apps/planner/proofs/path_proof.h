@@ -74,6 +74,7 @@ struct PathProof {
   /// robot's piece at each of the three corners overlaps the obstacle's.
   struct Triangle {
     std::array<std::uint32_t, 3> corners{};  ///< numbers of points
+    /// The pieces that overlap, and a common point for each corner.
     struct Hit {
       std::uint32_t robot = 0;
       std::uint32_t obstacle = 0;

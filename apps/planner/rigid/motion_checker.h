@@ -75,6 +75,7 @@ struct CheckLimits {
 /// Const and safe to share between threads.
 class MotionChecker {
  public:
+  /// A robot among obstacles, and the box for its reference point, if there is one.
   MotionChecker(RigidBody robot, RigidBody obstacles, ContactRule contact = ContactRule::kAllow,
                 std::optional<std::array<Rational3, 2>> box = std::nullopt);
 
@@ -87,10 +88,13 @@ class MotionChecker {
   /// Never wrong; kUndecided if the limits are reached. Both ends are checked first.
   [[nodiscard]] MotionVerdict check(const RigidMotion& motion, const CheckLimits& limits = {}) const;
 
+  /// What it was made of.
+  /// @{
   [[nodiscard]] const RigidBody& robot() const { return robot_; }
   [[nodiscard]] const RigidBody& obstacles() const { return obstacles_; }
   [[nodiscard]] ContactRule contact() const { return contact_; }
   [[nodiscard]] const std::optional<std::array<Rational3, 2>>& box() const { return box_; }
+  /// @}
   /// Whether the box, if there is one, holds a position.
   [[nodiscard]] bool in_box(const Rational3& position) const { return is_in_box(position, box_); }
 

@@ -28,6 +28,7 @@ class RigidStateValidityChecker : public ompl::base::StateValidityChecker {
  public:
   /** \brief Throws InputError if the space is neither of the two. */
   RigidStateValidityChecker(const ompl::base::SpaceInformationPtr& si, std::shared_ptr<const MotionChecker> checker);
+  /** \brief Whether a pose is in bounds and free. */
   bool isValid(const ompl::base::State* state) const override;
   using ompl::base::StateValidityChecker::isValid;
 
@@ -47,6 +48,7 @@ class RigidMotionValidator : public ompl::base::MotionValidator {
   /** \brief Throws InputError if the space is neither of the two. */
   RigidMotionValidator(const ompl::base::SpaceInformationPtr& si, std::shared_ptr<const MotionChecker> checker,
                        CheckLimits limits = CheckLimits::for_planners());
+  /** \brief Whether the whole motion is proved free. */
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2) const override;
   /** \brief lastValid is the end of a part of the motion, from s1, that is proved valid; no more than a 4096th of the
       motion is left out by halving, as long as it is decided. */

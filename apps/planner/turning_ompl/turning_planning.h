@@ -19,10 +19,13 @@ class TurningPlanning : public ompl::geometric::SimpleSetup {
       bounded by the obstacles, start and goal with twice the robot's reach to spare. */
   explicit TurningPlanning(const Scene& scene);
 
+  /** \brief The scene that was given. */
   const Scene& getScene() const { return scene_; }
+  /** \brief Robot, obstacles, start and goal as the planner takes them. */
   const TurningQuestion& getQuestion() const { return question_; }
   /** \brief The default planner, if it is in use. */
   TurningPlanner* getTurningPlanner() const { return dynamic_cast<TurningPlanner*>(planner_.get()); }
+  /** \brief The state space. */
   const TurningSpace& space() const { return *static_cast<const TurningSpace*>(si_->getStateSpace().get()); }
 
  private:

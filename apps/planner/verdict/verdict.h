@@ -66,6 +66,7 @@ struct PartsVerdict {
   [[nodiscard]] std::optional<std::size_t> smallest_gap() const;
 };
 
+/// How parts are judged.
 struct VerdictOptions {
   bool exact_volumes = false;  ///< rational volumes whatever their size: they may have thousands of digits
   Monitor monitor;

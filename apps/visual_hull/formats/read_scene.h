@@ -10,6 +10,7 @@
 
 namespace visual_hull {
 
+/// What a file does not say itself.
 struct ReadOptions {
   /// In files that hold matrices by name (OpenCV, MATLAB): the name of the projection matrices, with a `*` for a
   /// number.

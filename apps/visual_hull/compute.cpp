@@ -385,7 +385,7 @@ Vanished explain_empty(const Run& run, const Views& views, const Place& place, c
   constexpr std::size_t kMostSets = 5;
   Vanished vanished{views.back().name, "the views have no point in common", {}};
   const std::vector<ComparedView> plain = compared(views, place);
-  if (run.options.at_least) vanished.reason = "no point lies in so many silhouettes";
+  if (run.options.at_least) vanished.reason = "no point lies in that many silhouettes";
   if (plain.size() < views.size() || run.options.at_least) return vanished;
   for (const auto& set : views_without_common_point(plain, room.box, kMostSets, monitor)) {
     std::vector<std::string> names;
@@ -453,7 +453,8 @@ FoundHull hull_in_room(const Run& run, const Place& place, const Room& room, Vie
   if (made) return {*std::move(made), true, std::nullopt};
   if (run.options.way == Way::kDirect) {
     throw nef::InputError(
-        "--way direct: not for these views (fewer than three, a camera in the box, background, a box that cuts the "
+        "--way direct does not work for these views (fewer than three, a camera in the box, background, a box that "
+        "cuts the "
         "hull, or too many coincidences that doubles do not decide); use --way cones");
   }
   return hull_of_cones(run, place, room, views, phases, monitor);
@@ -503,7 +504,7 @@ std::vector<Camera> cameras_of(const Scene& scene) {
 
 void check_options(const Scene& scene, const Options& options) {
   if (scene.guessed && !options.refine) {
-    throw nef::InputError("the cameras of the turntable are not known: they are found by refining them");
+    throw nef::InputError("the cameras of the turntable are not known; --refine finds them");
   }
   if (options.repair_masks && (scene.guessed || !options.mask)) {
     throw nef::InputError(
@@ -599,7 +600,7 @@ Result HullStream::frame(const std::vector<cv::Mat>& masks, const Progress& prog
   const State& s = *state_;
   const Run run{s.options, progress};
   if (masks.size() != s.views.size()) {
-    throw nef::InputError("a frame has one mask a view: " + std::to_string(s.views.size()) + ", not " +
+    throw nef::InputError("a frame needs one mask per view: " + std::to_string(s.views.size()) + ", not " +
                           std::to_string(masks.size()));
   }
   Result result;

@@ -4,15 +4,21 @@
 // interpreter's lock (`call`), and warn of what the library noted when they have the lock again.
 #include <pybind11/stl.h>
 
+#include <filesystem>
 #include <mutex>
 
+#include "apps/minkowski/minkowski.h"
+#include "apps/minkowski/morphology.h"
 #include "apps/program/expression/expression.h"
+#include "apps/program/expression/openscad.h"
 #include "binding/base/bindings.h"
 #include "binding/base/errors.h"
 #include "binding/base/mesh_options.h"
 #include "binding/meshes.h"
 #include "nef/construct/construct.h"
+#include "nef/construct/round_shapes.h"
 #include "nef/import/repair.h"
+#include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/polyhedron.h"
 
@@ -27,13 +33,39 @@ Polyhedron halfspace(py::handle a, py::handle b, py::handle c, py::handle d, boo
   return make_halfspace(to_rational(a), to_rational(b), to_rational(c), to_rational(d), closed);
 }
 
+unsigned corners_around(unsigned corners, unsigned most) {
+  if (corners < 3 || corners > most) {
+    throw InputError("corners must be from 3 to " + std::to_string(most) + ", not " + std::to_string(corners));
+  }
+  return corners;
+}
+
+Polyhedron sphere(py::handle radius, unsigned corners) {
+  const Rational r = to_rational(radius);
+  if (r <= 0) throw InputError("radius must be positive");
+  const unsigned around = corners_around(corners, kMostCornersOfBall);
+  return call(std::size_t{around} * around, [=](const Monitor& monitor) { return make_sphere(r, around, monitor); });
+}
+
+Polyhedron cylinder(py::handle height, py::handle radius, const py::object& top, unsigned corners) {
+  const Rational h = to_rational(height);
+  const Rational bottom = to_rational(radius);
+  const Rational above = top.is_none() ? bottom : to_rational(top);
+  if (h <= 0) throw InputError("height must be positive");
+  if (bottom < 0 || above < 0 || (bottom == 0 && above == 0)) {
+    throw InputError("radius and top must not be negative, and one of them must be positive");
+  }
+  const unsigned around = corners_around(corners, kMostCornersOfCircle);
+  return call(2 * around, [=](const Monitor& monitor) { return make_cylinder(h, bottom, above, around, monitor); });
+}
+
 Polyhedron hull(py::handle points) {
   std::vector<Rational3> held = to_points(points, "points");
   const std::size_t count = held.size();
   return call(count, [held = std::move(held)](const Monitor& monitor) { return convex_hull(held, monitor); });
 }
 
-Polyhedron polygon(const py::list& rings) {
+Polyhedron polygon(const py::iterable& rings) {
   std::vector<std::vector<Rational3>> held;
   for (const py::handle ring : rings) held.push_back(to_points(ring, "a ring"));
   return make_polygon(held);
@@ -58,7 +90,7 @@ Polyhedron solid_from_mesh(py::handle vertices, py::handle faces, bool strict, b
           throw MeshError(error.what(), check_mesh(*mesh, {}, monitor));
         }
       });
-  warn(made.second);
+  warn(made.second, 2);
   return made.first;
 }
 
@@ -85,7 +117,7 @@ py::object repaired(py::handle vertices, py::handle faces, bool strict, bool fil
     }
   }
   const bool solid = made->problem.empty();
-  warn(made->notes);
+  warn(made->notes, 2);
   return result_of(
       "Repair", py::make_tuple(solid ? py::cast(made->set) : py::none(),
                                solid ? py::object(py::none())
@@ -97,12 +129,15 @@ py::object repaired(py::handle vertices, py::handle faces, bool strict, bool fil
 Polyhedron evaluate(const std::string& text, const std::string& crossings, double close) {
   const MeshOptions meshes = mesh_options(crossings, close);
   using Made = std::pair<Polyhedron, Messages>;
-  // An expression may stand for any amount of work.
-  const Made made = call(kSmallCall, [text, meshes](const Monitor& monitor) -> Made {
+  const bool openscad = lower_extension(text) == "csg";
+  // An expression may take any amount of work.
+  const Made made = call(kSmallCall, [text, meshes, openscad](const Monitor& monitor) -> Made {
     std::mutex noting;
     Messages notes;
     ExpressionOptions options;
-    options.load = [&](const std::string& path, const Monitor& watching) {
+    const std::filesystem::path folder = openscad ? std::filesystem::path(text).parent_path() : "";
+    options.load = [&](const std::string& file, const Monitor& watching) {
+      const std::string path = (folder / file).string();
       Messages of_file;
       MeshOptions watched = meshes;
       watched.monitor = watching;
@@ -115,22 +150,28 @@ Polyhedron evaluate(const std::string& text, const std::string& crossings, doubl
       const std::lock_guard<std::mutex> lock(noting);
       notes.push_back(note);
     };
+    options.minkowski = [](const Polyhedron& a, const Polyhedron& b, const Monitor& watching) {
+      return minkowski::minkowski_sum(a, b, {.monitor = watching});
+    };
+    options.ball = minkowski::inner_ball;
+    options.hull = minkowski::hull;
     options.monitor = monitor;
-    Polyhedron set = evaluate_expression(text, options);
+    Polyhedron set = openscad ? evaluate_openscad(read_file(text), options) : evaluate_expression(text, options);
     return {std::move(set), std::move(notes)};
   });
   warn(made.second);
   return made.first;
 }
 
-Polyhedron many(const std::vector<Polyhedron>& sets, unsigned threads, bool unite) {
+Polyhedron many(const py::iterable& iterable, unsigned threads, bool unite) {
+  const std::vector<Polyhedron> sets = sets_of(iterable);
   return call(items(sets), [=](const Monitor& monitor) {
     const Monitor of_all = monitor.on_threads(threads);
     return unite ? unite_all(sets, of_all) : intersect_all(sets, of_all);
   });
 }
 
-// The function is asked beforehand for every pair of labels that occur, with the interpreter's lock.
+// The function is called beforehand for every pair of labels that occur, with the interpreter's lock.
 Polyhedron overlay_labels(const Polyhedron& a, const Polyhedron& b, const py::function& function) {
   const std::size_t rows = a.complex().label_count;
   const std::size_t columns = b.complex().label_count;
@@ -175,25 +216,36 @@ points: an array of shape (N, 3) of floats, integers or Fractions, or a sequence
   m.def("polygon", &polygon, py::arg("rings"),
         R"(A closed planar polygon: outer rings and holes in one plane, in any order.
 
-rings: a list of arrays of shape (N, 3). Raises InputError if the points do not lie in one plane exactly, or a ring
+rings: an iterable of arrays of shape (N, 3). Raises InputError if the points do not lie in one plane exactly, or a ring
 touches or crosses itself.)");
   m.def("_from_mesh", &solid_from_mesh, py::arg("vertices"), py::arg("faces"), py::arg("strict"), py::arg("surface"),
         py::arg("check"), py::arg("crossings"), py::arg("close"));
   m.def("_repair", &repaired, py::arg("vertices"), py::arg("faces"), py::arg("strict"), py::arg("fill_holes"),
         py::arg("crossings"), py::arg("close"));
   m.def("eval", &evaluate, py::arg("text"), py::arg("crossings") = "refuse", py::arg("close") = 0.0,
-        R"doc(The set that an expression of ``nef eval`` spells: ``nef.eval("box(0,0,0, 2,2,2) - point(1, 1, 0.1)")``.
+        R"doc(The set that an expression of ``nef eval`` describes: ``nef.eval("box(0,0,0, 2,2,2) - ball(1, 4)")``.
 
-Numbers in it are exact: 0.1 is one tenth. crossings, close: as of from_mesh, for the mesh files that it names. Raises
-InputError, whose `offset` is the place of the error.)doc");
+Numbers in it are exact: 0.1 is one tenth. text: an expression in the whole language of `nef eval --help`, or the name of a
+.csg file of OpenSCAD. crossings, close: as of from_mesh, for the mesh files that it names. Raises InputError, whose
+`offset` is the place of the error.)doc");
   m.def(
-      "unite_all", [](const std::vector<Polyhedron>& sets, unsigned threads) { return many(sets, threads, true); },
-      py::arg("sets"), py::arg("threads") = 1,
-      "The union of any number of sets; the empty set for none. threads: 0 for as many as the machine has.");
+      "sphere", &sphere, py::arg("radius"), py::arg("corners") = 32,
+      R"(A polyhedron with its vertices on a sphere about the origin, as sphere() of ``nef eval`` and OpenSCAD make it.
+
+corners: around, from 3 to 4000. minkowski.ball has smaller errors, and an outer one, for the same number of vertices.)");
+  m.def("cylinder", &cylinder, py::arg("height"), py::arg("radius"), py::arg("top") = py::none(),
+        py::arg("corners") = 32,
+        R"(A cylinder about the z axis, from z = 0 up to `height`; with `top`, its radius up there, a piece of a cone.
+
+corners: around, from 3 to 100000.)");
   m.def(
-      "intersect_all", [](const std::vector<Polyhedron>& sets, unsigned threads) { return many(sets, threads, false); },
+      "unite_all", [](const py::iterable& sets, unsigned threads) { return many(sets, threads, true); },
       py::arg("sets"), py::arg("threads") = 1,
-      "The intersection of any number of sets; all of space for none. threads: 0 for as many as the machine has.");
+      "The union of the sets of an iterable; the empty set for none. threads: 0 for as many as the machine has.");
+  m.def(
+      "intersect_all", [](const py::iterable& sets, unsigned threads) { return many(sets, threads, false); },
+      py::arg("sets"), py::arg("threads") = 1,
+      "The intersection of the sets of an iterable; all of space for none. threads: 0 for as many as the machine has.");
   m.attr("_progress") = progress_variable();
   m.def("everything", &Polyhedron::everything, "All of space.");
   m.def("overlay", &overlay_labels, py::arg("a"), py::arg("b"), py::arg("function"),

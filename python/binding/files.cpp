@@ -48,7 +48,7 @@ py::tuple floats_of(const Rational3& point) {
 }
 
 py::object write(const Polyhedron& a, py::handle path, bool exact, bool binary, bool polygons, bool manifold,
-                 bool recenter, bool lenient) {
+                 bool recenter, bool lenient, bool text, const std::string& format) {
   using Made = std::pair<WrittenFile, Messages>;
   const std::string file = path_text(path);
   PolyhedronWriteOptions options;
@@ -58,6 +58,8 @@ py::object write(const Polyhedron& a, py::handle path, bool exact, bool binary, 
   options.manifold = manifold;
   options.recenter = recenter;
   options.lenient = lenient;
+  options.text = text;
+  options.format = format;
   // A file that is being written is finished, or never there: it is renamed into its place at the end.
   Made made = call(items(a), [=](const Monitor& monitor) mutable -> Made {
     Messages messages;
@@ -82,7 +84,7 @@ RoundedMesh nearest(const Mesh& mesh) {
 }
 
 py::tuple mesh_of(const Polyhedron& a, bool polygons, bool exact, bool manifold, bool recenter, bool repair) {
-  if (exact && repair) throw py::value_error("exact coordinates are not rounded, so there is nothing to repair");
+  if (exact && repair) throw InputError("exact coordinates are not rounded, so there is nothing to repair");
   if (manifold || recenter || repair) {
     const SolidMesh made = call(items(a), [=](const Monitor& monitor) {
       return solid_mesh(
@@ -105,8 +107,9 @@ py::tuple mesh_of(const Polyhedron& a, bool polygons, bool exact, bool manifold,
   return mesh_to_arrays(std::move(made.mesh), !polygons);
 }
 
-py::object mesh_with_origins_of(const std::string& operation, const std::vector<Polyhedron>& sets, bool polygons,
-                                bool exact, unsigned threads) {
+py::object mesh_with_origins_of(const std::string& operation, const py::iterable& iterable, bool polygons, bool exact,
+                                unsigned threads) {
+  const std::vector<Polyhedron> sets = sets_of(iterable);
   const Membership belongs = membership(operation);
   MeshExportOptions options;
   options.keep_polygons = polygons;
@@ -153,7 +156,8 @@ void bind_files(py::module_& m, PolyhedronClass& c) {
 
 strict: refuse faces of meshes that are not exactly planar instead of triangulating them. surface: take a mesh as the
 union of its faces. crossings: what is inside of a mesh that crosses itself, and close: how large lids for its holes may
-be, as of from_mesh. What was done to the input is told by warnings; InputError names file, line and cause.)");
+be, as of from_mesh. Changes to the input are reported as InputWarning. Raises MissingFileError if there is no such file, and
+InputError, which names file, line and cause, if it is bad.)");
   m.def("from_bytes", &from_bytes, py::arg("bytes"),
         "The set that Polyhedron.to_bytes wrote, of this or an earlier version. Raises InputError for damaged bytes.");
   m.def(
@@ -162,20 +166,20 @@ be, as of from_mesh. What was done to the input is told by warnings; InputError 
       R"(The boundary of a Boolean as a mesh, and which of the sets each face comes from, as `nef union --origins` has it.
 
 operation: "union", "intersection", "difference" (the first set without all others) or "symdiff" (the points of an odd
-number of sets). polygons, exact: as of Polyhedron.to_mesh. threads: 0 for as many as the machine has. Returns a
+number of sets). sets: an iterable. polygons, exact: as of Polyhedron.to_mesh. threads: 0 for as many as the machine has. Returns a
 MeshWithOrigins: vertices, faces and, for each face, the numbers of the sets on whose boundary it lies. Faces are cut
 where they pass from one set to another.)");
   m.def("_core_times", &core_times, py::arg("vertices"), py::arg("faces"));
   c.def("write", &write, py::arg("path"), py::arg("exact") = false, py::arg("binary") = false,
         py::arg("polygons") = true, py::arg("manifold") = false, py::arg("recenter") = false,
-        py::arg("lenient") = false,
-        R"(Writes the set to a file, whose format its extension tells.
+        py::arg("lenient") = false, py::arg("text") = false, py::arg("format") = "",
+        R"(Writes the set to a file; the extension selects the format.
 
 exact: exact coordinates in meshes (not STL). binary: binary STL or PLY. polygons: faces without holes stay polygons where
 rounding leaves them planar. manifold: where the solid touches itself, each sheet has vertices of its own (not in STL).
 recenter: subtract the middle of the mesh from its coordinates, and return it (three floats, exact); GLB and 3MF files put
 it back when they are read. lenient: write a mesh even if rounding made it illegal and it could not be repaired, and
-warn; otherwise that is an UnsupportedError. What a mesh cannot hold is told by warnings.)")
+warn; otherwise that is an UnsupportedError. text: .nef as text. format: such as "off", instead of the extension. What a mesh cannot store is reported as InputWarning.)")
       .def("to_mesh", &mesh_of, py::arg("polygons") = false, py::arg("exact") = false, py::kw_only(),
            py::arg("manifold") = false, py::arg("recenter") = false, py::arg("repair") = false,
            R"(The boundary of the set's volumes as a closed mesh: (vertices, faces).
@@ -185,8 +189,8 @@ array of shape (M, 3), counterclockwise as seen from outside; or, with `polygons
 manifold: where the solid touches itself, each sheet gets vertices of its own. recenter: subtract the middle of the mesh
 from the vertices, and return it as a third value (floats that are exact; Fractions if `exact`). repair: move vertices to
 other floats nearby until no two triangles have anything in common but vertices and edges that they share, as `write`
-does; UnsupportedError if that fails. Without it rounding may turn slivers over. What a mesh cannot hold (open
-boundaries, walls, wires, unbounded volumes) is told by warnings.)")
+does; UnsupportedError if that fails. Without it rounding may flip slivers. What a mesh cannot store (open
+boundaries, walls, wires, unbounded volumes) is reported as InputWarning.)")
       .def("to_bytes", &bytes_of, "The set in the binary native format, exact and with a checksum.")
       .def(py::pickle([](const Polyhedron& a) { return bytes_of(a); },
                       [](const py::bytes& bytes) { return from_bytes(std::string(bytes)); }));

@@ -21,7 +21,7 @@ std::int64_t index_of(py::handle number) {
 }
 
 void push_array(const py::array& faces, Mesh& mesh) {
-  if (faces.ndim() != 2) throw py::value_error("faces must be an array of shape (M, K) or a list of lists of indices");
+  if (faces.ndim() != 2) throw InputError("faces must be an array of shape (M, K) or a list of lists of indices");
   const char kind = faces.dtype().kind();
   if (kind != 'i' && kind != 'u') throw py::type_error("faces must be integers");
   using Indices = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;

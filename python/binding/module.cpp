@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "binding/base/bindings.h"
 #include "binding/base/errors.h"
+#include "binding/base/signatures.h"
 #include "nef/polyhedron.h"
 
 PYBIND11_MODULE(_nef, module) {
@@ -9,8 +10,8 @@ PYBIND11_MODULE(_nef, module) {
   nef::python::PolyhedronClass polyhedron(module, "Polyhedron", R"(An exact set of points in space.
 
 Any set made from half-spaces by intersection and complement: open or closed, bounded or not, of mixed dimension.
-Immutable; copies share what they hold. Made by nef.box, nef.halfspace, nef.hull, nef.from_mesh, nef.read, nef.eval and
-by operations. Operators are those of Python's sets: ``|``, ``&``, ``-``, ``^``, ``~`` (complement), ``==``, ``<=``
+Immutable; copies share their memory. Made by nef.box, nef.halfspace, nef.hull, nef.from_mesh, nef.read, nef.eval and
+by operations. Operators are those of Python's sets: ``|`` (or ``+``), ``&``, ``-``, ``^``, ``~`` (complement), ``==``, ``<=``
 (subset), ``in``; a set is true if it is not empty.)");
   nef::python::bind_operations(polyhedron);
   nef::python::bind_queries(module, polyhedron);
@@ -19,4 +20,6 @@ by operations. Operators are those of Python's sets: ``|``, ``&``, ``-``, ``^``,
   nef::python::bind_construction(module);
   nef::python::bind_view(module);
   nef::python::bind_tiles(module);
+  module.attr("__version__") = NEF_VERSION;
+  nef::python::give_signatures(module);
 }

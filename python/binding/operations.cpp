@@ -20,8 +20,7 @@ AffineMap map_from(py::handle matrix) {
     if (numbers.size() != 3 && numbers.size() != 4) rows.resize(5);
     if (rows.size() > 4) break;
   }
-  if (rows.size() < 3 || rows.size() > 4)
-    throw py::value_error("a transformation needs the shape (4, 4), (3, 4) or (3, 3)");
+  if (rows.size() < 3 || rows.size() > 4) throw InputError("a transformation needs the shape (4, 4), (3, 4) or (3, 3)");
   Rational weight = 1;
   if (rows.size() == 4) {
     if (rows[3].size() != 4 || rows[3][0] != 0 || rows[3][1] != 0 || rows[3][2] != 0 || rows[3][3] == 0) {
@@ -75,7 +74,7 @@ AffineMap scaling(py::handle factors) {
 }
 
 void require_kind_of_parts(const std::string& by) {
-  if (by != "components" && by != "volumes") throw py::value_error("by must be 'components' or 'volumes'");
+  if (by != "components" && by != "volumes") throw InputError("by must be 'components' or 'volumes'");
 }
 
 std::vector<Polyhedron> all_parts(const Polyhedron& a, const std::string& by, const Monitor& monitor) {
@@ -105,6 +104,7 @@ Polyhedron largest_part(const Polyhedron& a, const std::string& by) {
 void bind_operations(PolyhedronClass& c) {
   c.def(py::init<>(), "The empty set.")
       .def("__or__", binary(unite), py::is_operator(), "Union.")
+      .def("__add__", binary(unite), py::is_operator(), "Union, as |.")
       .def("__and__", binary(intersect), py::is_operator(), "Intersection.")
       .def("__sub__", binary(subtract), py::is_operator(), "Difference.")
       .def("__xor__", binary(symmetric_difference), py::is_operator(), "Symmetric difference.")

@@ -60,19 +60,22 @@ auto with_plain(TiledWithPlain operation) {
 
 Tiling tiling_of(std::size_t limit) {
   constexpr std::size_t kFewest = 32;
-  if (limit < kFewest) throw py::value_error("limit must be at least 32 vertices");
+  if (limit < kFewest) throw InputError("limit must be at least 32 vertices");
   return {.limit = limit};
 }
 
-Tiles cut(const Polyhedron& set, std::size_t limit, unsigned threads) {
+// Nothing is the empty set.
+Tiles cut(const std::optional<Polyhedron>& given, std::size_t limit, unsigned threads) {
   const Tiling tiling = tiling_of(limit);
+  const Polyhedron set = given.value_or(Polyhedron());
   return {call(items(set),
                [=](const Monitor& monitor) { return TiledPolyhedron(set, tiling, monitor.on_threads(threads)); }),
           threads};
 }
 
-Tiles unite_in_tiles(const std::vector<Polyhedron>& sets, std::size_t limit, unsigned threads) {
+Tiles unite_in_tiles(const py::iterable& iterable, std::size_t limit, unsigned threads) {
   const Tiling tiling = tiling_of(limit);
+  const std::vector<Polyhedron> sets = sets_of(iterable);
   return {call(items(sets),
                [=](const Monitor& monitor) { return TiledPolyhedron(sets, tiling, monitor.on_threads(threads)); }),
           threads};
@@ -169,6 +172,7 @@ void bind_tiled_operators(py::class_<Tiles>& c) {
     c.def(name, with_plain(plain), py::is_operator(), text);
   };
   both("__or__", unite, unite, "Union.");
+  both("__add__", unite, unite, "Union, as |.");
   both("__and__", intersect, intersect, "Intersection.");
   both("__sub__", subtract, subtract, "Difference.");
   both("__xor__", symmetric_difference, symmetric_difference, "Symmetric difference.");
@@ -236,11 +240,12 @@ interrupted call leaves the old set.)");
 void bind_tiles(py::module_& m) {
   py::class_<Tiles> c(m, "TiledPolyhedron", R"(An exact set that is kept in tiles.
 
-An operation costs what of the set it touches, and versions share the rest: for many small steps on a large set whose
-results are wanted one by one, and for sets larger than memory. Immutable. Operators are those of Polyhedron; the second
+The cost of an operation depends on the tiles that it touches, and versions share the rest: for many small steps on a large
+set whose results are needed one by one, and for sets larger than memory. Immutable. Operators are those of Polyhedron; the second
 operand may be a Polyhedron. Labels other than 0 are taken as 1. Not hashable.)");
-  c.def(py::init(&cut), py::arg("set") = Polyhedron(), py::arg("limit") = Tiling().limit, py::arg("threads") = 1,
-        "Cuts a set into tiles of at most `limit` vertices. threads: of this and of all operations; 0: as many as the "
+  c.def(py::init(&cut), py::arg("set") = py::none(), py::arg("limit") = Tiling().limit, py::arg("threads") = 1,
+        "Cuts a set (None: the empty set) into tiles of at most `limit` vertices. threads: of this and of all "
+        "operations; 0: as many as the "
         "machine has.");
   bind_tiled_operators(c);
   bind_tiled_methods(c);

@@ -18,16 +18,17 @@ exception is raised at once, the computation stops soon after in its thread, and
 immutable, so nothing is ever half done. Operators and functions of this package report their progress inside
 `with nef.progress(function)`.
 
-The applications are the modules nef.minkowski, nef.visual_hull and nef.planner.
+The applications are the modules nef.minkowski, nef.visual_hull and nef.planner, which are imported on first use.
 """
 import contextlib
-from typing import Callable, Iterator, Optional
+import importlib.util
+from typing import TYPE_CHECKING, Callable, Iterator, Optional
 
 from . import _nef
-from ._nef import (Polyhedron, TiledPolyhedron, box, eval, everything, from_bytes, halfspace, hull, intersect_all,
-                   mesh_with_origins, overlay, point, polygon, read, read_tiles, segment, tiles_from_mesh,
-                   unite_all, unite_in_tiles)
-from .errors import Error, InputError, UnsupportedError
+from ._nef import (Polyhedron, TiledPolyhedron, __version__, box, cylinder, eval, everything, from_bytes, halfspace, hull,
+                   intersect_all, mesh_with_origins, overlay, point, polygon, read, read_tiles, segment, sphere,
+                   tiles_from_mesh, unite_all, unite_in_tiles)
+from .errors import Error, InputError, InputWarning, MissingFileError, UnsupportedError
 from .meshes import from_mesh, repair
 from .notebook import show
 from .results import (ApproximateMoments, Counts, Distance, Location, Measured, MeshWithOrigins, Millable, Moments, Penetration,
@@ -35,11 +36,32 @@ from .results import (ApproximateMoments, Counts, Distance, Location, Measured, 
 from . import meshes as _meshes, notebook as _notebook
 
 __all__ = [
-    "ApproximateMoments", "Counts", "Distance", "Error", "InputError", "Location", "Measured", "MeshWithOrigins", "Millable", "Moments", "Penetration", "Polygon", "Polyhedron",
-    "RayHit", "Reach", "Repair", "Section", "TiledPolyhedron", "UnsupportedError", "box", "empty", "eval", "everything", "from_bytes", "from_mesh", "halfspace", "hull",
-    "intersect_all", "mesh_with_origins", "overlay", "point", "polygon", "progress", "read", "read_tiles", "repair", "segment", "show",
+    "ApproximateMoments", "Counts", "Distance", "Error", "InputError", "InputWarning", "Location", "Measured", "MeshWithOrigins", "Millable", "MissingFileError", "Moments", "Penetration", "Polygon", "Polyhedron",
+    "RayHit", "Reach", "Repair", "Section", "TiledPolyhedron", "UnsupportedError", "box", "cylinder", "empty", "eval", "everything", "from_bytes", "from_mesh", "halfspace", "hull",
+    "intersect_all", "mesh_with_origins", "overlay", "point", "polygon", "progress", "read", "read_tiles", "repair", "segment", "show", "sphere",
     "tiles_from_mesh", "unite_all", "unite_in_tiles",
 ]
+
+
+if TYPE_CHECKING:
+    from . import minkowski, planner, visual_hull
+
+_APPLICATIONS = ("minkowski", "planner", "visual_hull")
+
+
+def __getattr__(name):
+    if name not in _APPLICATIONS:
+        raise AttributeError(f"module 'nef' has no attribute {name!r}")
+    try:
+        return importlib.import_module("nef." + name)
+    except ImportError:
+        if importlib.util.find_spec(f"nef._{name}") is not None:
+            raise
+    raise AttributeError(f"nef.{name} is not part of this build; CMake says which of its libraries are missing")
+
+
+def __dir__():
+    return sorted({*globals(), *_APPLICATIONS})
 
 
 @contextlib.contextmanager
@@ -48,11 +70,11 @@ def progress(function: Optional[Callable[[str, int, int], object]]) -> Iterator[
     unite_all, from_mesh, read) calls function(phase, done, total); a total of 0 means that it is not known.
 
     A large operation calls it some hundred times, a small one (a few thousand vertices) a few times. It may be called in
-    another thread than the block's, one call at a time. An exception in it ends the operation and comes out of it. Blocks
-    nest; None listens to nothing. The applications have `progress` arguments of their own.
+    another thread than the block's, one call at a time. An exception in it ends the operation, which raises it. Blocks
+    nest; None switches reports off. The applications have `progress` arguments of their own.
 
-    The block is a matter of its context (see contextvars): it concerns no other task or thread, but those that run in a copy
-    of the context, as tasks that are made in the block and asyncio.to_thread do.
+    The block applies to its context (see contextvars): to no other task or thread, except those that run in a copy of the
+    context, such as tasks that are made in the block and asyncio.to_thread.
 
         >>> with nef.progress(lambda phase, done, total: print(phase, done, total)):  # doctest: +SKIP
         ...     c = a - b

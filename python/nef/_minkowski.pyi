@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 from fractions import Fraction
-from typing import Callable, Dict, List, Optional, Sequence, Tuple
+from typing import Callable, Dict, Iterable, List, Optional, Tuple
 
 from ._nef import Number, Points, Polyhedron, Triple
 from .results import Millable, Penetration, Reach
@@ -39,7 +39,7 @@ def millable(part: Polyhedron, tool: Polyhedron, axes: Optional[int] = ..., thre
         report: Optional[Dict[str, object]] = ...) -> Millable: ...
 def component(a: Polyhedron, point: Optional[Triple] = ...) -> Polyhedron: ...
 def hull(a: Polyhedron) -> Polyhedron: ...
-def configuration_space(robot: Polyhedron, obstacles: Sequence[Polyhedron],
+def configuration_space(robot: Polyhedron, obstacles: Iterable[Polyhedron],
                         box: Optional[Tuple[Triple, Triple]] = ..., threads: int = ...,
                         progress: Optional[Callable[[int, int], object]] = ..., union: str = ...,
         report: Optional[Dict[str, object]] = ...) -> Polyhedron: ...

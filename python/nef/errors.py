@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The exceptions of the suite."""
+"""The exceptions and warnings of the suite."""
 
 
 class Error(Exception):
-    """What every exception of the suite is: bad data or bad use, never a bug. The text is one line for people."""
+    """Base class of all exceptions of the suite: bad data or bad use, never a bug. The text is one line."""
 
 
 class InputError(Error, ValueError):
-    """The input (a file, a mesh, a number, an expression) cannot mean what it should.
+    """The input (a file, a mesh, an array, a number, an expression) is not valid. A ValueError, too.
 
-    Where single elements are guilty, they are named by their numbers in the input, counted from 0:
+    Elements at fault are given by their numbers in the input, counted from 0:
 
     - vertices: tuple of int
     - edges: tuple of (int, int), each as its two vertices
@@ -27,5 +27,13 @@ class InputError(Error, ValueError):
         self.view = view
 
 
+class MissingFileError(InputError, FileNotFoundError):
+    """There is no such file."""
+
+
 class UnsupportedError(Error):
     """The request is well formed but cannot be represented: an unbounded solid as a mesh, say."""
+
+
+class InputWarning(UserWarning):
+    """The input was changed, or only interpreted, or the output lacks something. Filter it by this category."""

@@ -7,7 +7,8 @@ from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 from . import _planner
 from ._nef import Polyhedron
-from .errors import InputError
+from .assemblies import Parts, parts_of
+from .errors import InputError, InputWarning
 
 Exact3 = Tuple[Fraction, Fraction, Fraction]
 Integer3 = Tuple[int, int, int]
@@ -28,7 +29,7 @@ class Overlap(NamedTuple):
 
 
 class PairVerdict(NamedTuple):
-    """How two parts lie to each other."""
+    """Whether two parts are disjoint, touch or overlap."""
 
     #: their names
     parts: Tuple[str, str]
@@ -113,7 +114,7 @@ class Screw(NamedTuple):
 
 
 class Verdict(NamedTuple):
-    """What is true of parts at their places."""
+    """A verdict on parts at their places."""
 
     #: all pairs, a list of PairVerdict
     pairs: List[PairVerdict]
@@ -132,8 +133,8 @@ class Verdict(NamedTuple):
         return min(apart, key=lambda pair: pair.squared, default=None)
 
 
-def verdict(parts: Union[Dict[str, Polyhedron], str, "os.PathLike"], exact: bool = False) -> Verdict:
-    """Judges parts at their places: overlaps, gaps, contacts, and what can be removed. All exact but for volumes.
+def verdict(parts: Parts, exact: bool = False) -> Verdict:
+    """Checks parts at their places: overlaps, gaps, contacts, and which parts can be removed. All exact but for volumes.
 
     - parts: {name: Polyhedron} of bounded solids, or an assembly's file as `planner --assembly` takes it
     - exact: volumes as fractions, too
@@ -145,13 +146,8 @@ def verdict(parts: Union[Dict[str, Polyhedron], str, "os.PathLike"], exact: bool
         >>> judged.parts[1].status, [int(x) for x in judged.parts[1].direction]
         ('removable', [0, 0, 1])
     """
-    if isinstance(parts, dict):
-        names, sets = list(parts), list(parts.values())
-    else:
-        names, sets, messages = _planner.read_parts(os.fspath(parts))
-        for message in messages:
-            warnings.warn(message, stacklevel=2)
-    pairs, judged = _planner.verdict(sets, exact)
+    names, sets = parts_of(parts)
+    pairs, judged = _planner.verdict(names, sets, exact)
     return Verdict(
         [PairVerdict((names[a], names[b]), contact, squared, distance, (on_a, on_b), items, overlap and Overlap(*overlap))
          for a, b, contact, squared, distance, on_a, on_b, items, overlap in pairs],
@@ -179,13 +175,13 @@ def range_of_motion(moving: Any, fixed: Optional[Union[Dict[str, Polyhedron], Se
     """
     if not isinstance(moving, Polyhedron):
         if fixed is not None or joint is not None:
-            raise InputError("a mechanism's file has its fixed parts and its joint")
+            raise InputError("fixed and joint must be left out for the file of a mechanism, which contains them")
         parts, names, messages = _planner.range_of_file(os.fspath(moving))
         for message in messages:
-            warnings.warn(message, stacklevel=2)
+            warnings.warn(message, InputWarning, stacklevel=2)
     else:
         if fixed is None or joint is None:
-            raise InputError("a range of motion needs fixed parts and a joint")
+            raise InputError("a range of motion needs `fixed` and `joint`")
         names = list(fixed) if isinstance(fixed, dict) else [f"part {i}" for i in range(len(fixed))]
         sets = list(fixed.values()) if isinstance(fixed, dict) else list(fixed)
         parts = _planner.range_of_motion(moving, sets, (type(joint).__name__.lower(), *joint), low, high)
@@ -196,9 +192,9 @@ def range_of_motion(moving: Any, fixed: Optional[Union[Dict[str, Polyhedron], Se
 
 
 class CheckedMotion(NamedTuple):
-    """What is proved about a motion of a linkage. True if it is free."""
+    """The verdict on a motion of a linkage. True if it is free."""
 
-    #: 'path' (with a gap everywhere), 'blocked' or 'undecided' (contact, and what comes nearer than doubles can tell)
+    #: 'path' (with a gap everywhere), 'blocked' or 'undecided' (contact, or a gap too small for doubles)
     status: str
     #: blocked: where two bodies overlap, 0 at the beginning and 1 at the end
     parameter: float
@@ -225,7 +221,7 @@ class Linkage:
     """
 
     def __init__(self, base: Optional[Polyhedron] = None):
-        """`base` is the body of the link "base", which stays; None if it has no shape."""
+        """`base` is the body of the link "base", which does not move; None if it has no shape."""
         self._links = [("base", base, "fixed", 0, (0, 0, 0), (1, 0, 0, 0), (0, 0, 1))]
         self._allowed = []
         self._checker = None  # the last one, and its obstacles

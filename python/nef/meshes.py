@@ -6,6 +6,7 @@ import numpy
 
 from . import _nef
 from ._nef import Polyhedron
+from .errors import InputError
 from .results import Repair
 
 
@@ -46,7 +47,9 @@ def _three_columns(points):
 
 def _indices(faces):
     """An integer array, or a list of lists where faces have different numbers of corners."""
-    if isinstance(faces, numpy.ndarray) and faces.dtype.kind in "iu" and faces.ndim == 2:
+    if isinstance(faces, numpy.ndarray) and faces.dtype.kind in "iu":
+        if faces.ndim != 2:
+            raise InputError(f"faces must be an array of shape (M, K) or a list of lists of indices, not of shape {faces.shape}")
         return faces
     faces = list(faces)
     if faces and len({len(face) for face in faces}) == 1:

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Minkowski sums, erosions, openings, closings, offsets, sweeps, hulls, convex decompositions and configuration spaces;
-how deep two sets penetrate, where one fits beside the other, what of a part a tool can reach, and what it
-leaves around it. All exact.
+penetration depths, no-fit sets, the reach of tools, and what milling tools leave around a part. All exact.
 
     >>> import nef
     >>> from nef import minkowski

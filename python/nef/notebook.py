@@ -1,15 +1,13 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Sets that show themselves: in notebooks, and as pages in a browser."""
-import html
+"""Sets in notebooks, and as pages in a browser."""
 import os
-import tempfile
-import webbrowser
 from typing import Optional, Sequence, Union
 
 from . import _nef
 from ._nef import Polyhedron
+from .errors import InputError
 
-#: above this number of vertices a notebook shows a picture instead of a page, which would hold every number
+#: above this number of vertices a notebook shows a picture instead of a page, which would contain every number
 PAGE_LIMIT = 20000
 
 
@@ -18,7 +16,7 @@ def _names(sets, names):
         return [f"set {i + 1}" for i in range(len(sets))]
     names = [str(name) for name in names]
     if len(names) != len(sets):
-        raise ValueError(f"{len(sets)} sets need as many names, not {len(names)}")
+        raise InputError(f"{len(sets)} sets need as many names, not {len(names)}")
     return names
 
 
@@ -27,6 +25,8 @@ def page(*sets: Polyhedron, names: Optional[Sequence[str]] = None, title: str = 
 
     Raises UnsupportedError if the package was built without the viewer.
     """
+    import tempfile
+
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "page.html")
         _nef._write_page(list(sets), _names(sets, names), path, title)
@@ -46,18 +46,24 @@ def show(*sets: Polyhedron, names: Optional[Sequence[str]] = None, title: str = 
     - path: where the page is written; a file in the folder for temporary files if None
     - open_browser: False: only write the page
     """
+    import tempfile
+
     names = _names(sets, names)
     if path is None:
         handle, path = tempfile.mkstemp(prefix="nef-", suffix=".html")
         os.close(handle)
     _nef._write_page(list(sets), names, os.fspath(path), title)
     if open_browser:
+        import webbrowser
+
         webbrowser.open("file://" + os.path.abspath(path))
     return os.fspath(path)
 
 
 def html_of(self):
-    """What a notebook shows: the viewer page in a frame. None where there is no viewer or the set is too large."""
+    """The viewer page in a frame, for notebooks; None if there is no viewer or the set is too large."""
+    import html
+
     if not _nef._has_pages() or sum(self.counts()[:3]) > PAGE_LIMIT:
         return None
     frame = html.escape(page(self), quote=True)
@@ -65,5 +71,5 @@ def html_of(self):
 
 
 def png_of(self):
-    """What a notebook shows that runs no scripts: a picture."""
+    """A picture, for notebooks that run no scripts."""
     return picture(self)

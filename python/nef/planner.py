@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Exact planning for a robot that translates among obstacles, and may turn about an axis: a path, or a proof that there
+"""Exact planning for a robot that translates among obstacles and may turn about an axis: a path, or a proof that there
 is none.
 
     >>> import nef
@@ -21,21 +21,23 @@ import numpy
 
 from . import _planner
 from ._nef import Polyhedron
-from .errors import Error, InputError
+from .assemblies import (Disassembly, DisassemblyStep, FreeDirections, Inseparable, Undecided, disassemble, free_directions)
+from .errors import Error, InputError, InputWarning
 from .mechanisms import (CheckedMotion, Hinge, Linkage, Overlap, PairVerdict, PartVerdict, RangeEnd, RangePart, Screw, Slider,
                          Stop, Verdict, range_of_motion, verdict)
 
 Exact3 = Tuple[Fraction, Fraction, Fraction]
 
-__all__ = ["Cell", "CertifiedPath", "CheckedMotion", "CollidingPose", "Component", "Hinge", "Linkage", "Overlap", "PairVerdict",
+__all__ = ["Cell", "CertifiedPath", "CheckedMotion", "CollidingPose", "Component", "Disassembly", "DisassemblyStep",
+           "FreeDirections", "Hinge", "Inseparable", "Linkage", "Overlap", "PairVerdict",
            "PartVerdict", "Plan", "Proof", "RangeEnd", "RangePart", "Rotation", "Scene", "Screw", "Slider", "Stop", "Thinness",
-           "TightPassage", "TurningProof", "Verdict", "range_of_motion", "read", "verdict"]
+           "TightPassage", "TurningProof", "Undecided", "Verdict", "Widest", "disassemble", "free_directions", "range_of_motion", "read", "verdict"]
 
 
 class Cell(NamedTuple):
     """A cell of the free space."""
 
-    #: as people read it: "edge 3"
+    #: such as "edge 3"
     name: str
     dimension: int
     #: three Fractions each; in boundary order for a facet, none for a volume
@@ -50,7 +52,7 @@ class TightPassage(NamedTuple):
     #: the component of free space that it belongs to
     component: int
     cells: List[Cell]
-    #: the cells of the rest of free space from which one enters
+    #: the cells of the rest of free space from which it is entered
     mouths: List[Cell]
 
 
@@ -65,12 +67,25 @@ class Component(NamedTuple):
 
 
 class Thinness(NamedTuple):
-    """How thin free space gets on the best way between two points."""
+    """How thin free space is on the best path between two points."""
 
     #: the largest k so that a path stays where free space is locally at least k-dimensional
     piece: int
-    #: the largest j so that a path crosses only cells of dimension j or more, its ends exempt
+    #: the largest j so that a path crosses only cells of dimension j or more, except at its ends
     junction: int
+
+
+class Widest(NamedTuple):
+    """How large a robot may be and still pass: between `low`, at which there is a path, and `high`, at which none exists."""
+
+    #: None: no path at the smallest size that was tried
+    low: Optional[Fraction]
+    #: None: a path at the largest size that was tried
+    high: Optional[Fraction]
+    #: whether a size between them could not be decided, so that the interval is wider than the precision
+    undecided: bool
+    #: the robot of the size `low`
+    robot: Polyhedron
 
 
 class Proof(NamedTuple):
@@ -99,7 +114,7 @@ class CertifiedPath:
     - status: 'path' (no pose collides, between the way-points or at them), 'blocked' (one collides: `collision`) or
       'undecided'
     - collision: a CollidingPose of the first motion that collides, or None
-    - undecided: numbers of the motions that could not be decided; contact that is kept while turning is the usual cause
+    - undecided: numbers of the motions that could not be decided; contact during a turn is the usual cause
     - touching: numbers of the free motions on which robot and obstacles touch, or come closer than doubles can resolve
     """
 
@@ -128,7 +143,7 @@ class Rotation(NamedTuple):
 
 
 class TurningProof:
-    """Why there is no path of a robot that turns, whatever it does within its range of angles."""
+    """Why there is no path of a robot that turns, at any angles of its range."""
 
     def __init__(self, proof):
         self._proof = proof
@@ -139,16 +154,16 @@ class TurningProof:
         return self._proof.cells
 
     def complaint(self) -> Optional[str]:
-        """What is wrong with the proof, checked independently of the search; None if nothing."""
+        """The first error in the proof, found independently of the search; None if it is valid."""
         return self._proof.complaint()
 
 
 class Plan:
-    """What came out of a question. True if it is a path.
+    """The answer to a query. True if it is a path.
 
     - status: 'path', 'infeasible', 'invalid_start', 'invalid_goal', 'blocked' (a given path leaves free space) or
       'undecided' (more time, or of a robot that turns more cells of angles, may decide)
-    - motions: what the answer is about: 'translation' (at the orientation of the robot) or 'translation and turning'
+    - motions: which motions the answer covers: 'translation' (at the orientation of the robot) or 'translation and turning'
     - waypoints: the path, a list of three Fractions each; None if there is none
     - turns: of a robot that turns, for each way-point the quaternion w, x, y, z of its rotation, of any length; else None
     - degrees: the same as floats; else None
@@ -156,10 +171,10 @@ class Plan:
     - unrounded: numbers of way-points between the ends with more decimals than `digits`
     - length: of the path, a float; None for a robot that turns
     - segment_dimensions: for each segment, the smallest dimension of the cells that it runs along
-    - passages: numbers in Scene.passages(), in the order of their use
-    - thinness: of the best path there is
+    - passages: numbers in Scene.passages(), in the order in which the path uses them
+    - thinness: of the best path, a Thinness
     - proof: a Proof (or a TurningProof) if the problem is infeasible
-    - collision: what an invalid start or goal, or a blocked path, hits: a line for people
+    - collision: what an invalid start or goal, or a blocked path, hits, as text
     - blocked_segment: of a given path, the first segment that leaves free space
     """
 
@@ -218,7 +233,7 @@ class Scene:
         if names is None:
             names = [f"obstacle {i}" for i in range(len(obstacles))]
         if len(names) != len(obstacles):
-            raise ValueError(f"{len(obstacles)} obstacles need as many names, not {len(names)}")
+            raise InputError(f"{len(obstacles)} obstacles need as many names, not {len(names)}")
         turns = None
         if rotation is not None:
             axis, low, high = rotation
@@ -278,15 +293,44 @@ class Scene:
         return self._scene.messages
 
     def keep_clear(self, distance: Any) -> "Scene":
-        """The scene of a robot made larger by a polytope around the ball of this radius: what is free there keeps at
-        least that distance from all obstacles, and all that keeps 1.2 times as much is free."""
+        """The scene of the robot enlarged by a polyhedron around the ball of this radius: its free positions keep at least
+        this distance from all obstacles, and all positions that keep 1.2 times as much are free."""
         scene = Scene.__new__(Scene)
         scene._scene = self._scene.kept_clear(distance)
         scene._space = None
         return scene
 
+    def widest(self, start: Any = None, goal: Any = None, *, growth: str = "scale", precision: Any = "1/1000",
+               max_cells: Optional[int] = None, seconds: Optional[float] = None) -> Widest:
+        """How large the robot may be and still have a path from start to goal.
+
+        - start, goal, max_cells: as in plan()
+        - growth: "scale": the largest factor about the reference point, from which all of the robot must be visible; "box":
+          the largest r for the robot enlarged by the cube from -r to r
+        - precision: relative width of the interval
+        - seconds: time limit, after which sizes are undecided
+
+            >>> import nef
+            >>> from nef import planner
+            >>> wall = nef.box((4, 0, 0), (5, 9, 9)) - nef.box((3, 3, 3), (6, 5, 5)).interior()
+            >>> scene = planner.Scene(nef.box((0, 0, 0), (1, 1, 1)), [wall], box=((0, 0, 0), (8, 8, 8)))
+            >>> scene.widest((1, 1, 1), (6, 6, 6)).low
+            Fraction(2, 1)
+        """
+        if growth not in ("scale", "box"):
+            raise InputError(f"growth must be 'scale' or 'box', not {growth!r}")
+        scene = self._scene.with_ends(start, goal)
+        return Widest(*scene.widest(growth == "box", precision, self._cells(max_cells), seconds))
+
+    def _cells(self, max_cells):
+        if max_cells is None:
+            return 2000
+        if self._scene.rotation is None:
+            raise InputError("max_cells applies to a robot that turns, but the scene has no rotation")
+        return max_cells
+
     def build(self, threads: int = 1, progress: Optional[Callable[[str, int, int], object]] = None) -> "Scene":
-        """Computes the free space, which the first question does otherwise.
+        """Computes the free space, which the first query does otherwise.
 
         - progress: a function of (phase, done, total); a total of 0 means that it is not known
         """
@@ -316,7 +360,7 @@ class Scene:
           those of the scene's file if None
         - raw: no shortcuts
         - clearance: way-points away from obstacles where possible
-        - roomy: use thin passages only where needed (else: any passage)
+        - roomy: use thin passages only where necessary (else: any passage)
         - min_dimension: stay in pieces of free space of at least this dimension
         - quick: shorten the first path found a little, instead of choosing the shortest of several
         - digits: round way-points to this many decimals where the motions stay free
@@ -331,10 +375,9 @@ class Scene:
         if scene.rotation is not None:
             if raw or clearance or roomy or quick or min_dimension:
                 raise InputError("a plan of a robot that turns takes only digits, max_cells and seconds")
-            answer = _planner.solve_turning(scene, 2000 if max_cells is None else max_cells, seconds, digits)
+            answer = _planner.solve_turning(scene, self._cells(max_cells), seconds, digits)
             return Plan(answer, "translation and turning")
-        if max_cells is not None:
-            raise InputError("max_cells applies to a robot that turns, but the scene has no rotation")
+        self._cells(max_cells)
         if self._space is None:
             invalid = scene.invalid_end(scene.start, scene.goal)
             if invalid is not None:
@@ -354,13 +397,13 @@ class Scene:
         return Plan(self.build()._space.check(waypoints))
 
     def certify(self, path: Any) -> CertifiedPath:
-        """Whether a path of the robot as a rigid body collides: every motion is proved free, or a colliding pose is known.
+        """Whether a path of the robot as a rigid body collides: proves every motion free, or finds a colliding pose.
 
         - path: a list of (position, quaternion), quaternions as w, x, y, z of any length; a Plan; or a file of poses as
           planner --path takes it. Between two poses the position goes straight, and the rotation evenly along the
           shorter arc
 
-        The robot is as it is in its own file; the rotation of the scene, if it has one, does not bound the path.
+        The robot is as in its own file; the rotation of the scene, if it has one, does not bound the path.
 
             >>> import nef
             >>> from nef import planner
@@ -394,5 +437,5 @@ def read(path: Any, *, crossings: str = "union", close: float = 0) -> Scene:
     scene._scene = _planner.read(os.fspath(path), crossings, close)
     scene._space = None
     for message in scene.messages:
-        warnings.warn(message, stacklevel=2)
+        warnings.warn(message, InputWarning, stacklevel=2)
     return scene

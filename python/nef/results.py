@@ -38,7 +38,7 @@ class Section(NamedTuple):
     set: object
     #: the closures of its two-dimensional parts
     polygons: list
-    #: the ends of what no polygon holds: arrays of shape (2, 3)
+    #: the ends of segments outside of all polygons: arrays of shape (2, 3)
     segments: list
     #: array of shape (N, 3)
     points: object
@@ -76,7 +76,7 @@ class Penetration(NamedTuple):
 class Repair(NamedTuple):
     """What a repair has made of a mesh."""
 
-    #: the solid, a Polyhedron; None if the mesh bounds none still
+    #: the solid, a Polyhedron; None if the mesh still bounds none
     set: object
     #: why it bounds none, and what to do; None if it bounds one
     problem: Optional[str]
@@ -126,7 +126,7 @@ class Reach(NamedTuple):
 class Millable(NamedTuple):
     """What a milling tool leaves of the material around a part."""
 
-    #: closed, holds the part, and is the part wherever the tool reaches, a Polyhedron
+    #: closed, contains the part, and is the part wherever the tool reaches, a Polyhedron
     shape: object
     #: what that has beyond the part, a list of closed solids by descending volume
     unreached: object

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Exact visual hulls: the largest set that silhouettes allow.
+"""Exact visual hulls: the largest set that fits all silhouettes.
 
     >>> hull = visual_hull.compute(masks, cameras, box=((-1, -1, -1), (1, 1, 1)))   # doctest: +SKIP
     >>> hull.solid.write("hull.off")                                               # doctest: +SKIP
@@ -13,11 +13,11 @@ import numpy
 
 from . import _visual_hull
 from ._nef import Polyhedron
-from .errors import InputError
+from .errors import InputError, InputWarning
 
 Progress = Optional[Callable[[str, str, int, int], object]]
 
-#: the board that is used where none is named
+#: the board that is used if none is named
 USUAL_BOARD = "charuco:7x5,30mm,22mm,DICT_5X5"
 
 __all__ = ["CalibratedView", "Calibration", "Hull", "Masks", "RefinedView", "Refinement", "USUAL_BOARD", "View", "board",
@@ -25,7 +25,7 @@ __all__ = ["CalibratedView", "Calibration", "Hull", "Masks", "RefinedView", "Ref
 
 
 class View(NamedTuple):
-    """What one view has come to."""
+    """The result for one view."""
 
     name: str
     #: the file of its image
@@ -56,20 +56,20 @@ class Hull(NamedTuple):
     views: List[View]
     #: the box that bounds it, two tuples of three Fractions
     box: tuple
-    #: (view, reason) if nothing is left of the hull at that view; else None
+    #: (view, reason) if the hull is empty or flat from that view on; else None
     vanished: Optional[Tuple[str, str]]
     #: lines on how images were paired with views, where that was not obvious, and the like; they are warnings, too
     notes: Sequence[str] = ()
     #: volumes of its pieces, the largest first, if there are several; of those that were left out, too
     pieces: Sequence[float] = ()
-    #: names of the views that disagree with the others, if that was asked for; those left out first
+    #: names of the views that disagree with the others, with `suspects` or `drop_suspects`; those left out first
     suspects: Sequence[str] = ()
-    #: what has become of the cameras, a Refinement, if they were refined
+    #: a Refinement, if the cameras were refined
     refinement: Optional["Refinement"] = None
 
 
 _OPTIONS = dict(box=None, tolerance=0, outer=False, min_area=0, half_pixels=False, unknown_beyond=False, images=None,
-                mask=None, repair_masks=False, refine=False, suspects=False, drop_suspects=False, at_least=None,
+                mask=None, threshold=None, channel=None, invert=False, way="best", repair_masks=False, refine=False, suspects=False, drop_suspects=False, at_least=None,
                 largest=False, verify=True, threads=1)
 
 
@@ -79,14 +79,14 @@ def _options(**given):
 
 def _hull(answer):
     for note in answer["notes"]:
-        warnings.warn(note, stacklevel=3)
+        warnings.warn(note, InputWarning, stacklevel=3)
     refinement = answer["refinement"]
     return Hull(answer["hull"], [View(*view) for view in answer["views"]], answer["box"], answer["vanished"],
                 answer["notes"], answer["pieces"], answer["suspects"], refinement and _refinement(refinement))
 
 
 def _told(error, names):
-    """The error with the view that it names, so that programs need not read it."""
+    """The error with `view` set to the view that its text names."""
     text = str(error)
     error.view = next((name for name in sorted(names, key=len, reverse=True) if name in text), None)
     return error
@@ -101,30 +101,30 @@ def compute(masks: Sequence[Any], cameras: Sequence[Any], names: Optional[Sequen
 
     - masks: arrays of shape (H, W); what is not 0 is the object
     - cameras: matrices of shape (3, 4), one for each mask: x = P X, (x1 / x3, x2 / x3) = (right, down) in pixels, x3 > 0
-      in front; floats are taken as the numbers that they are, Fractions as what they say
-    - names: of the views, for messages; "view 0", ... if None
+      in front; floats and Fractions are taken exactly
+    - names: names of the views for messages; "view 0", ... if None
     - box: two corners that bound the hull; found from the cameras if None
     - tolerance: by how many pixels silhouettes may be simplified; 0 keeps every corner
     - outer: simplified silhouettes contain the masks, so the hull is an outer bound
     - min_area: islands and holes of fewer square pixels are dropped and filled (with outer: holes only)
     - half_pixels: False: whole coordinates are centres of pixels, as OpenCV has it; True: corners of pixels
-    - unknown_beyond: what lies beyond the frame of an image is kept, not carved
-    - lens: the distortion that the masks have, (K, coefficients) as OpenCV has them, or one such pair a mask; the
-      matrices are those without it
+    - unknown_beyond: keep, instead of carving, what lies beyond the frame of an image
+    - lens: the distortion that the masks have, (K, coefficients) as OpenCV has them, or one such pair per mask;
+      the matrices are those of the undistorted images
     - suspects: compare the views, for `suspects`; drop_suspects: leave out the one that disagrees, and so on
-    - at_least: the points in at least so many silhouettes, instead of in all; not verified
+    - at_least: the points in at least this many silhouettes, instead of in all; not verified
     - largest: keep the piece of the largest volume only
     - verify: project the hull back, for `inside` and `score` of the views
     - threads: 0 for as many as the machine has; the result does not depend on it
     - progress: a function of (phase, view, done, total)
 
-    Raises InputError, whose `view` is the name of the guilty one, for an empty mask or a matrix that is no camera.
+    Raises InputError, whose `view` is the name of the view at fault, for an empty mask or a matrix that is not a camera.
     """
     masks = [numpy.asarray(mask) for mask in masks]
     cameras = [numpy.asarray(camera).tolist() for camera in cameras]
     names = [f"view {i}" for i in range(len(masks))] if names is None else [str(name) for name in names]
     if not len(masks) == len(cameras) == len(names):
-        raise ValueError(f"{len(masks)} masks need as many cameras and names, not {len(cameras)} and {len(names)}")
+        raise InputError(f"{len(masks)} masks need as many cameras and names, not {len(cameras)} and {len(names)}")
     lenses = None if lens is None else _lenses(lens, len(masks))
     options = _options(box=box, tolerance=tolerance, outer=outer, min_area=min_area, half_pixels=half_pixels,
                        unknown_beyond=unknown_beyond, suspects=suspects, drop_suspects=drop_suspects, at_least=at_least,
@@ -137,40 +137,54 @@ def compute(masks: Sequence[Any], cameras: Sequence[Any], names: Optional[Sequen
         try:
             hull = _hull(_visual_hull.from_views(names, images, cameras, lenses, folder, options, progress))
         except InputError as error:
+            for image, name in zip(images, names):
+                error.args = (str(error).replace(image, f"the mask of {name}"),)
             raise _told(error, names) from None
     return hull._replace(views=[view._replace(image="") for view in hull.views])
 
 
 def _lenses(lens, count):
-    """A pair of K and coefficients for each of so many masks."""
+    """A pair of K and coefficients for each of `count` masks."""
     pairs = [lens] * count if len(lens) == 2 and len(lens[0]) == 3 else list(lens)  # K has three rows
     if len(pairs) != count:
-        raise ValueError(f"{count} masks need one lens, or as many, not {len(pairs)}")
+        raise InputError(f"{count} masks need one lens, or as many, not {len(pairs)}")
     return [(numpy.asarray(k).tolist(), [float(c) for c in coefficients]) for k, coefficients in pairs]
 
 
 def read(path: Any, *, box: Any = None, tolerance: float = 0, outer: bool = False, min_area: float = 0,
-         half_pixels: bool = False, unknown_beyond: bool = False, images: Any = None, mask: Optional[str] = None,
-         repair_masks: bool = False, refine: bool = False, suspects: bool = False, drop_suspects: bool = False,
-         at_least: Optional[int] = None, largest: bool = False, verify: bool = True, threads: int = 1,
+         half_pixels: bool = False, unknown_beyond: bool = False, images: Any = None, threshold: Any = None,
+         channel: Optional[str] = None, invert: bool = False, mask: Optional[str] = None, repair_masks: bool = False,
+         matrices: Optional[str] = None, up: Optional[str] = None, turntable: Optional[int] = None,
+         intrinsics: Optional[Sequence[float]] = None, radius: Optional[float] = None, height: float = 0,
+         refine: bool = False, suspects: bool = False, drop_suspects: bool = False, at_least: Optional[int] = None,
+         largest: bool = False, way: str = "best", verify: bool = True, threads: int = 1,
          progress: Progress = None) -> Hull:
-    """The visual hull of a scene: a file or folder of cameras and images in any format that the command reads (JSON,
-    NeRF's transforms.json, COLMAP, Middlebury, matrices); see compute for what it has, too.
+    """The visual hull of a scene: a file or folder of cameras and images in any format that `visual_hull` reads (JSON,
+    NeRF's transforms.json, COLMAP, Middlebury, matrices); arguments as in compute, and:
 
     - images: a folder with an image for each view, instead of those that the scene names
-    - mask: the images are photographs, and masks are made of them, as `masks` does by this method
-    - repair_masks: decide again what the other views contradict in these masks; `notes` tell each change
-    - refine: correct the cameras by the silhouettes first, as `refine` does
+    - threshold, channel, invert: pixels brighter than `threshold` (a number or "otsu") in this channel ("red", ...) are the
+      object; with `invert`, those that are darker
+    - matrices: which matrices of an OpenCV or MATLAB file are the projections, such as "world_mat_*"
+    - up: the axis of the scene that becomes +z: "x", "y", "z", "-x", "-y" or "-z"
+    - turntable: `path` is a folder of images between which the object turns by 1/turntable of a turn (negative: clockwise);
+      `intrinsics` (f, cx, cy or fx, fy, cx, cy or nine numbers), `radius` (distance of the camera from the axis, which is z)
+      and `height` (above the origin, which it looks at) describe the camera; without them `refine` finds it
+    - mask: the images are photographs, of which masks are made by this method, as in `masks`
+    - repair_masks: correct pixels of these masks that the other views contradict; `notes` report each change
+    - refine: correct the cameras by the silhouettes first, as in `refine`
+    - way: "direct" (vertex by vertex), "cones", or "best", whichever suits the views; the hull is the same
     """
     options = _options(box=box, tolerance=tolerance, outer=outer, min_area=min_area, half_pixels=half_pixels,
                        unknown_beyond=unknown_beyond, images=None if images is None else os.fspath(images), mask=mask,
-                       repair_masks=repair_masks, refine=refine, suspects=suspects, drop_suspects=drop_suspects,
+                       threshold=threshold, channel=channel, invert=invert, way=way, repair_masks=repair_masks, refine=refine, suspects=suspects, drop_suspects=drop_suspects,
                        at_least=at_least, largest=largest, verify=verify, threads=threads)
-    return _hull(_visual_hull.from_file(os.fspath(path), options, progress))
+    table = None if turntable is None else (turntable, intrinsics, radius, height)
+    return _hull(_visual_hull.from_file(os.fspath(path), options, matrices or "", up or "", table, progress))
 
 
 class RefinedView(NamedTuple):
-    """What has become of the camera of one view. Pixels are means over the view's outline."""
+    """The refined camera of one view. Pixels are means over the view's outline."""
 
     name: str
     #: by how many pixels the image of the object has moved (root mean square), similarities of space aside
@@ -180,7 +194,7 @@ class RefinedView(NamedTuple):
     #: pixels by which the outline is off, before and after
     before: float
     after: float
-    #: "camera": it stood elsewhere and was moved; "mask": it disagrees wherever its camera stands; None
+    #: "camera": it was off and was moved; "mask": the mask disagrees wherever the camera is placed; None
     fault: Optional[str]
 
 
@@ -189,7 +203,7 @@ class Refinement(NamedTuple):
 
     #: matrices of shape (3, 4), to be given to compute
     cameras: List[Any]
-    #: whether they are other than those given
+    #: whether they replace those given
     accepted: bool
     #: what was free: "turntable", "angles", "views", or "none"
     model: str
@@ -207,20 +221,20 @@ class Refinement(NamedTuple):
 
 def refine(masks: Sequence[Any], cameras: Optional[Sequence[Any]] = None, names: Optional[Sequence[str]] = None, *,
            half_pixels: bool = False, threads: int = 1) -> Refinement:
-    """Cameras corrected so that the silhouettes agree, if pieces of outlines that were not used for that agree, too;
-    otherwise those given. The result does not depend on the number of threads.
+    """Corrects cameras so that the silhouettes agree, if this also improves pieces of outlines that were not used;
+    otherwise returns those given. The result does not depend on the number of threads.
 
-    - masks, names, half_pixels, threads: as compute has them
-    - cameras: as compute has them; None: the masks are of one full turn of a turntable in equal steps of which nothing
-      else is known, with square pixels; the camera then stands at a distance of about 1 from the axis, which is z
+    - masks, names, half_pixels, threads: as in compute
+    - cameras: as in compute; None: the masks are of one full turn of a turntable in equal steps, with square pixels, of
+      which nothing else is known; the distance of the camera from the axis, which is z, is then about 1
 
-    Raises InputError for an empty mask, a matrix that is no camera, or too few views.
+    Raises InputError for an empty mask, a matrix that is not a camera, or too few views.
     """
     masks = [(numpy.asarray(mask) != 0).astype(numpy.uint8) for mask in masks]
     names = [f"view {i}" for i in range(len(masks))] if names is None else [str(name) for name in names]
     given = None if cameras is None else [numpy.asarray(camera).tolist() for camera in cameras]
     if len(masks) != len(names) or (given is not None and len(given) != len(masks)):
-        raise ValueError(f"{len(masks)} masks need as many cameras and names")
+        raise InputError(f"{len(masks)} masks need as many cameras and names")
     try:
         answer = _visual_hull.refine(names, masks, given, half_pixels, threads)
     except InputError as error:
@@ -244,27 +258,27 @@ class Masks(NamedTuple):
     quality: List[float]
     #: how they were made
     chosen: str
-    #: masks to be looked at, and why; they are warnings, too
+    #: masks to check, and why; they are warnings, too
     notes: Sequence[str]
 
 
 def masks(photographs: Sequence[Any], method: str = "auto", *, threads: int = 1) -> Masks:
-    """Cuts one object out of photographs (files), by one rule for all: `method` is what `visual_hull --mask` takes
+    """Cuts one object out of photographs (files), by one method for all, as `visual_hull --mask` takes it
     ("auto", "threshold:red-blue", "background:median", "key:green", "grabcut", ...).
 
-    Raises InputError for a photograph that cannot be read, and for a method that is none.
+    Raises InputError for a photograph that cannot be read, and for an unknown method.
     """
     answer = Masks(*_visual_hull.masks([os.fspath(file) for file in photographs], method, threads))
     for note in answer.notes:
-        warnings.warn(note, stacklevel=2)
+        warnings.warn(note, InputWarning, stacklevel=2)
     return answer
 
 
 def board(path: Any, description: str = USUAL_BOARD) -> None:
-    """Writes a ChArUco board to be printed, by which `calibrate` finds cameras: .pdf or .svg, to scale, or .png.
+    """Writes a ChArUco board for printing, by which `calibrate` finds cameras: .pdf or .svg, to scale, or .png.
 
     `description` is "charuco:COLUMNSxROWS,SQUARE,MARKER,DICTIONARY", lengths in mm unless m, cm or in follows. Raises
-    InputError for another one, and for another extension.
+    InputError for any other description or extension.
     """
     data = _visual_hull.board(description, os.path.splitext(os.fspath(path))[1])
     with open(path, "wb") as file:
@@ -272,7 +286,7 @@ def board(path: Any, description: str = USUAL_BOARD) -> None:
 
 
 class CalibratedView(NamedTuple):
-    """What has become of one photograph."""
+    """The result for one photograph."""
 
     photograph: str
     #: corners of the board that were found
@@ -281,7 +295,7 @@ class CalibratedView(NamedTuple):
     error: Optional[float]
     #: the matrix of shape (3, 4), in millimetres from the middle of the board, z up, the lens undone; None if refused
     camera: Any
-    #: why the photograph is of no use; None: it has a camera
+    #: why the photograph was refused; None: it has a camera
     refused: Optional[str]
 
 
@@ -310,19 +324,19 @@ class Calibration(NamedTuple):
 
 def calibrate(photographs: Sequence[Any], board: str = USUAL_BOARD, *, lens: Sequence[Any] = (), scene: Any = None,
               threads: int = 1) -> Calibration:
-    """The cameras of photographs (files) of an object that stands on a board, or turns with it.
+    """The cameras of photographs (files) of an object that lies on a board, or turns with it.
 
-    - board: as `board` has it
-    - lens: photographs of the board held at several tilts, by the same camera at the same zoom and focus, that determine
-      the lens; if there are none, the photographs themselves do
+    - board: a description as in `board`
+    - lens: photographs of the board at several tilts, by the same camera at the same zoom and focus, that determine the
+      lens; if there are none, the photographs themselves do
     - scene: a file (.json) for the cameras, their lens and the names of the photographs, to be given to `read`
 
-    Raises InputError if the board is found in less than three photographs, or for a file that is no image.
+    Raises InputError if the board is found in fewer than three photographs, or for a file that is not an image.
     """
     answer = _visual_hull.calibrate([os.fspath(file) for file in photographs], board,
                                     [os.fspath(file) for file in lens], "" if scene is None else os.fspath(scene), threads)
     for note in answer["notes"]:
-        warnings.warn(note, stacklevel=2)
+        warnings.warn(note, InputWarning, stacklevel=2)
     for key in "views", "lens_views":
         answer[key] = [CalibratedView(*view)._replace(camera=None if view[3] is None else numpy.array(view[3]))
                        for view in answer[key]]

@@ -172,9 +172,9 @@ def test_mesh_with_origins():
 
 def test_holes(tmp_path):
     cube = nef.box((0, 0, 0), (1, 1, 1))
-    with pytest.raises(nef.InputError, match="close=10 in Python"):
+    with pytest.raises(nef.InputError, match="close=10 closes"):
         nef.from_mesh(CORNERS, SQUARES[:5])
-    with pytest.raises(nef.InputError, match="--close=17 accepts them"):
+    with pytest.raises(nef.InputError, match="close=17 accepts them"):
         nef.from_mesh(CORNERS, SQUARES[:5], close=10)
     with pytest.warns(UserWarning, match="1 hole closed by lids of 17 %"):
         assert nef.from_mesh(CORNERS, SQUARES[:5], close=17) == cube

@@ -2,8 +2,8 @@
 """The type stubs name what there is: every function and method, with its parameters in their order."""
 import ast
 import importlib
+import inspect
 import pathlib
-import re
 
 import pytest
 
@@ -19,7 +19,8 @@ def stubbed(path):
             if isinstance(node, ast.ClassDef):
                 visit(node.body, node.name + ".")
             elif isinstance(node, ast.FunctionDef):
-                names = [argument.arg for argument in node.args.args + node.args.kwonlyargs]
+                more = [argument for argument in (node.args.vararg, node.args.kwarg) if argument]
+                names = [argument.arg for argument in node.args.args + node.args.kwonlyargs + more]
                 found[prefix + node.name] = names[1:] if prefix else names
 
     visit(ast.parse(path.read_text()).body, "")
@@ -27,11 +28,11 @@ def stubbed(path):
 
 
 def parameters(function):
-    """The names that pybind11 writes into the first line of a docstring; None for what is no such function."""
-    match = re.match(r"\w+\((.*)\) -> ", function.__doc__ or "")
-    if match is None:
+    """The names of the parameters but self; None for a function of several overloads, which has no signature."""
+    try:
+        names = list(inspect.signature(function).parameters)
+    except ValueError:
         return None
-    names = re.findall(r"(?:^|, )(\w+): ", match.group(1))
     return [name for name in names if name != "self"]
 
 
@@ -49,9 +50,8 @@ def test_stub(name, needs):
         if key in skipped or "._pybind11" in key:
             continue
         assert key in stubs, f"{key} has no stub"
-        names = parameters(function)
-        if names is not None and ".__" not in key:
-            assert stubs[key] == names, key
+        if ".__" not in key:
+            assert stubs[key] == parameters(function), key
     assert set(stubs) - set(there) - skipped == set()
 
 
@@ -62,4 +62,32 @@ def test_everything_public_is_documented(name, needs):
         assert (getattr(module, key).__doc__ or "").strip(), key
     for key, value in vars(nef.Polyhedron).items():
         if callable(value) and not key.startswith("_"):
-            assert (value.__doc__ or "").strip().count("\n") >= 1 or not parameters(value), key
+            assert (value.__doc__ or "").strip(), key
+
+
+@pytest.mark.parametrize("name", ["nef", "minkowski", "planner", "visual_hull"])
+def test_public_functions_have_signatures(name, needs):
+    module = needs(name)
+    functions = [value for key, value in vars(module).items() if key in module.__all__ and callable(value)]
+    for type_ in [value for value in functions if isinstance(value, type)]:
+        functions += [value for key, value in vars(type_).items() if callable(value) and not key.startswith("_")]
+    for function in functions:
+        if not isinstance(function, type):
+            inspect.signature(function)
+    assert str(inspect.signature(nef.box)) == "(low, high)"
+    assert str(inspect.signature(nef.Polyhedron.contains)) == "(self, points, threads=1)"
+    assert str(inspect.signature(nef.Polyhedron().to_mesh)) == (
+        "(polygons=False, exact=False, *, manifold=False, recenter=False, repair=False)")
+    assert nef.box.__doc__.startswith("The closed box")
+
+
+@pytest.mark.parametrize("name", ["_nef", "_minkowski"])
+def test_stubs_have_the_docstrings_of_the_module(name, needs):
+    needs(name[1:])
+    module = importlib.import_module("nef." + name)
+    seen = 0
+    for node in ast.parse(pathlib.Path(nef.__file__).with_name(name + ".pyi").read_text()).body:
+        if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and not node.name.startswith("_"):
+            assert inspect.cleandoc(ast.get_docstring(node)) == inspect.getdoc(getattr(module, node.name)), node.name
+            seen += 1
+    assert seen > 15

@@ -28,8 +28,9 @@ void keep_clear(Scene& scene, const Rational& distance, const Monitor& monitor) 
   minkowski::MinkowskiOptions options;
   options.monitor = monitor;
   scene.robot = minkowski::minkowski_sum(scene.robot, around_ball(distance, monitor), options);
-  scene.messages.push_back("the robot is made larger by a polytope around the ball of radius " + brief_text(distance) +
-                           ": paths keep at least that distance; some that keep less than 1.2 times as much are lost");
+  scene.messages.push_back(
+      "the robot is enlarged by a polyhedron around the ball of radius " + brief_text(distance) +
+      ": paths keep at least this distance, and paths that keep less than 1.2 times as much may be missed");
 }
 
 }  // namespace nef::planner

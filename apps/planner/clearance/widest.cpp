@@ -30,8 +30,9 @@ Polyhedron grown(const Polyhedron& robot, Growth growth, const Rational& size, c
   }
   if (!robot.is_regular() || !sees_all_from_origin(robot)) {
     throw InputError(
-        "--widest: the robot must be a solid that sees all of itself from its reference point, or a smaller factor "
-        "need not be easier; move the reference, or use --widest-box");
+        "--widest: all of the robot must be visible from its reference point, or a smaller robot might not pass where "
+        "a "
+        "larger one does; move 'reference', or use --widest-box");
   }
   return transform(robot, AffineMap::scale({size, size, size}), monitor);
 }

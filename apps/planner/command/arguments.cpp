@@ -29,15 +29,16 @@ An assembly is {"parts": {"name": SHAPE, ...}}, each part at its assembled place
 {"type": "slider", "direction": [0, 0, 1], "range": [0, 5]} and
 {"type": "screw", "axis": "z", "pitch": 1, "range": [0, 720]}.
 
-Exit codes: 0 a path; 1 proved that there is none (with --path: the given path leaves free space);
-2 bad input or usage; 3 start or goal not free; 4 (--ompl only) no answer within the time; 5 undecided
+Exit codes: 0 a path; 1 proof that there is none (with --path: the given path leaves free space);
+2 bad input or usage; 3 start or goal is not free; 4 (--ompl only) no answer within the time; 5 undecided
 (--time, --max-cells).
 With --assembly: 0 a sequence, 1 inseparable, 3 parts overlap, 5 undecided within the --time.
 With --range: 0, 5 undecided.
 With --verdict: 0, 3 parts overlap, 5 a range is undecided.
 --manifold, --recenter and --lenient are for the meshes that --free-directions writes; .glb scenes and animations are always
 placed about their middle.
---tight without -o only lists: it exits with 0 whatever the answer. --queries exits with the largest code of all.
+--tight without -o lists passages and exits with 0 whatever the answer is. --queries exits with the largest code of
+all queries.
 
 Examples:
   planner scene.json -o path.json -o path.txt
@@ -61,19 +62,21 @@ void declare_ompl(CLI::App& app, Arguments& a) {
                  "Seconds after which the answer is undecided; with --ompl or --benchmark, for each run of a planner")
       ->check(CLI::Range(1e-3, 1e6));
   app.add_option("--runs", a.runs, "Runs of each OMPL planner")->check(CLI::Range(1U, 1000000U));
-  app.add_option("--benchmark", a.benchmark, "Write OMPL's benchmark log, our planner and --planners in it");
+  app.add_option("--benchmark", a.benchmark, "Compare this planner with --planners, and write OMPL's benchmark log");
   app.add_option("--planners", a.planners, "OMPL planners for --benchmark")->delimiter(',');
 }
 
 void declare_clearance(CLI::App& app, Arguments& a) {
   app.add_flag("--widest", a.widest,
-               "By which factor can the robot be scaled about its reference point and still pass?");
-  app.add_flag("--widest-box", a.widest_box, "By which r can it be made larger by the cube from -r to r?");
-  app.add_option("--precision", a.precision, "Relative width of the interval that these tell")->default_str("1/1000");
+               "Find the largest factor by which the robot can be scaled about its reference point and still pass");
+  app.add_flag("--widest-box", a.widest_box,
+               "Find the largest r so that the robot still passes when it is enlarged by the cube from -r to r");
+  app.add_option("--precision", a.precision, "Relative width of the interval that --widest and --widest-box report")
+      ->default_str("1/1000");
   app.add_option("--keep-clear", a.keep_clear, "Keep at least this distance from all obstacles")->type_name("D");
-  app.add_option("--speed", a.limits.speed, "Time stamps for way-points: speed of the reference point")
+  app.add_option("--speed", a.limits.speed, "Speed of the reference point, for time stamps of way-points")
       ->check(nef::positive());
-  app.add_option("--acceleration", a.limits.acceleration, "... and its acceleration (without bound if not given)")
+  app.add_option("--acceleration", a.limits.acceleration, "Its acceleration (default: unlimited); needs --speed")
       ->check(nef::positive());
 }
 
@@ -124,7 +127,7 @@ void check_outputs(const Arguments& a) {
   if (!a.assembly.empty()) require_extensions(a, "with --assembly", {"json", "html", "glb"});
   for (const std::string& file : a.outputs) {
     if (lower_extension(file) == "csv" && a.limits.speed <= 0) {
-      throw InputError("-o " + file + ": time stamps want a --speed");
+      throw InputError("-o " + file + ": time stamps need --speed");
     }
   }
   if (a.session.mesh_file.manifold || a.session.mesh_file.recenter || a.session.mesh_file.lenient) {
@@ -160,9 +163,9 @@ void check_usage(const Arguments& a) {
   if (!a.page.empty() && lower_extension(a.page) != "html") {
     throw InputError("--page " + a.page + ": the extension must be .html");
   }
-  if (a.limits.acceleration > 0 && a.limits.speed <= 0) throw InputError("--acceleration wants a --speed, too");
+  if (a.limits.acceleration > 0 && a.limits.speed <= 0) throw InputError("--acceleration needs --speed");
   if (!a.free_directions.empty()) {
-    if (a.assembly.empty()) throw InputError("--free-directions asks about a part of an --assembly");
+    if (a.assembly.empty()) throw InputError("--free-directions needs --assembly");
   } else {
     check_outputs(a);
   }
@@ -179,11 +182,12 @@ void declare(CLI::App& app, Arguments& a) {
                  "With --assembly: the exact cone of directions in which this part can begin to move")
       ->type_name("PART");
   app.add_option("--range", a.range,
-                 "The angles or strokes of a mechanism (.json) with one moving part that are free, touching, colliding")
+                 "Find at which angles or strokes the moving part of a mechanism (.json) is free, touches or collides")
       ->type_name("FILE");
-  app.add_option("--verdict", a.verdict,
-                 "Judge the parts of an assembly or a mechanism (.json) where they are: overlaps, gaps, contacts, what "
-                 "can be removed, and the range of motion")
+  app.add_option(
+         "--verdict", a.verdict,
+         "Check the parts of an assembly or a mechanism (.json) where they are: overlaps, gaps, contacts, which "
+         "parts can be removed, and the range of motion")
       ->type_name("FILE");
   app.add_flag("--exact", a.exact, "With --verdict: exact volumes of overlaps, which may have thousands of digits");
   app.add_option("-o,--output", a.outputs,
@@ -191,43 +195,45 @@ void declare(CLI::App& app, Arguments& a) {
                  "text; may be repeated")
       ->type_name("FILE");
   app.add_option("--page", a.page, "Write a page (.html) in which the robot moves along the path")->type_name("FILE");
-  app.add_flag("--tight", a.tight, "List every tight passage; with --path those that a given path uses");
+  app.add_flag("--tight", a.tight, "List all tight passages; with --path, also name those that the path uses");
   app.add_option("--path", a.given_path,
-                 "Check this path (a report or lines of numbers) instead of looking for one; lines x y z qx qy qz qw "
-                 "turn the robot")
+                 "Check this path (a report or lines of numbers) instead of searching for one; lines x y z qx qy qz "
+                 "qw turn the robot")
       ->type_name("FILE");
-  app.add_option("--queries", a.queries, "Answer many questions: six numbers a line, start and goal (or JSON)")
+  app.add_option("--queries", a.queries, "Answer many queries: start and goal as six numbers per line (or JSON)")
       ->type_name("FILE");
-  app.add_option("--start", a.start, "x,y,z in place of the scene's start; x,y,z,degrees for a robot that turns")
+  app.add_option("--start", a.start,
+                 "Start to use instead of the scene's; with degrees as fourth number for a robot that turns")
       ->type_name("X,Y,Z");
-  app.add_option("--goal", a.goal, "... in place of the scene's goal")->type_name("X,Y,Z");
+  app.add_option("--goal", a.goal, "Goal to use instead of the scene's")->type_name("X,Y,Z");
   const auto take_contact = [&a](const std::string& rule) {
     a.contact = rule == "allow" ? ContactRule::kAllow : ContactRule::kForbid;
   };
-  app.add_option_function<std::string>("--contact", take_contact, "May the robot touch obstacles?")
+  app.add_option_function<std::string>("--contact", take_contact, "Whether the robot may touch obstacles")
       ->check(CLI::IsMember({"allow", "forbid"}));
   app.add_option_function<std::string>(
          "--prefer", [&a](const std::string& kind) { a.path.roomy = kind == "roomy"; },
-         "short: any passage will do; roomy: thin passages only where needed")
+         "short: use any passage; roomy: use thin passages only where necessary")
       ->check(CLI::IsMember({"short", "roomy"}));
-  app.add_option("--min-dimension", a.path.min_dimension, "Stay where free space is at least this thick")
+  app.add_option("--min-dimension", a.path.min_dimension, "Stay where free space has at least this dimension")
       ->check(CLI::Range(0, 3));
-  app.add_flag("--raw", a.path.raw, "The way-points of the roadmap, without shortcuts");
+  app.add_flag("--raw", a.path.raw, "Keep the way-points of the roadmap, without shortcuts");
   app.add_flag("!--quick", a.path.thorough,
-               "The first way found, pulled a few times, rather than the shortest of several ways round");
-  app.add_option("--digits", a.path.digits, "Round way-points to so many decimals where the motions stay free")
+               "Take the first path found and shorten it a little, instead of comparing several");
+  app.add_option("--digits", a.path.digits, "Round way-points to this many decimals where the motions stay free")
       ->check(CLI::Range(0U, 300U));
-  app.add_flag("--clearance", a.path.clearance, "Way-points inside volumes rather than in contact");
-  app.add_flag("--se3", a.se3, "Path matrix with seven columns x y z qx qy qz qw");
-  app.add_option("--max-cells", a.max_cells, "A robot that turns: cut its angles into so many cells at most");
+  app.add_flag("--clearance", a.path.clearance, "Prefer way-points inside volumes to way-points in contact");
+  app.add_flag("--se3", a.se3, "Write path matrices with seven columns x y z qx qy qz qw");
+  app.add_option("--max-cells", a.max_cells, "For a robot that turns: use at most this many cells of angles");
   app.add_option(
          "--proof", a.proof,
-         "Write a proof that the path is free, that it collides, or that there is none, or with --assembly that "
-         "nothing can begin to move (.proof)")
+         "Write a proof (.proof) that the path is free, that it collides, or that there is none; with --assembly, that "
+         "nothing can begin to move")
       ->type_name("FILE");
-  app.add_option("--check-proof", a.check_proof,
-                 "Verify a .proof file, or of a robot that turns the proof in a report, against the scene or assembly "
-                 "(exit code 0: it holds, 1: it does not)")
+  app.add_option(
+         "--check-proof", a.check_proof,
+         "Verify a .proof file (for a robot that turns, the report with the proof) against the scene or assembly; "
+         "exit code 0: the proof holds, 1: it fails")
       ->type_name("FILE");
   declare_clearance(app, a);
   declare_ompl(app, a);

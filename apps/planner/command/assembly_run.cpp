@@ -116,8 +116,8 @@ void print(const Disassembly& answer, const Assembly& assembly) {
   }
   for (const Inseparable& stuck : answer.inseparable) {
     std::cout << "inseparable: " << list_of(stuck.parts, assembly)
-              << (stuck.nothing_moves ? "; nothing of it can move" : "; nothing of it can leave") << " (" << kAllCovered
-              << ")\n";
+              << (stuck.nothing_moves ? "; no subset of them can move" : "; no subset of them can leave") << " ("
+              << kAllCovered << ")\n";
     for (const std::size_t part : stuck.parts) {
       PartSet by;
       for (const auto& [a, b] : stuck.blocked_by) {
@@ -175,18 +175,18 @@ int tell_free_directions(const Arguments& a, const Assembly& assembly) {
 void write_proof(const Arguments& a, const Disassembly& answer, const Assembly& assembly) {
   if (a.proof.empty()) return;
   if (answer.inseparable.empty()) {
-    throw InputError("--proof " + a.proof + ": there are proofs of parts that are inseparable, and none of these are");
+    throw InputError("--proof " + a.proof + ": no parts are inseparable, so there is nothing to prove");
   }
   const std::optional<InseparableProof> proof =
       make_inseparable_proof(assembly, answer.inseparable.front().parts, a.session.monitor);
   if (!proof) {
     throw InputError(
         "--proof " + a.proof +
-        ": there are proofs that no set of parts can begin to move, and one of these can, though none leaves");
+        ": some of these parts can begin to move, though none can leave; only parts that cannot move have a proof");
   }
   write_file(a.proof, proof_text(*proof));
   if (answer.inseparable.size() > 1) {
-    a.session.note(a.proof + " is about " + list_of(answer.inseparable.front().parts, assembly) + " only");
+    a.session.note(a.proof + " covers only " + list_of(answer.inseparable.front().parts, assembly));
   }
 }
 

@@ -52,7 +52,7 @@ void write_path_proof(const Arguments& a, const MotionChecker& checker, const st
   if (proof) {
     write_file(a.proof, proof_text(*proof));
   } else {
-    std::cerr << "planner: " << a.proof << " is not written, since the path is undecided\n";
+    std::cerr << "planner: " << a.proof << " was not written, because the path is undecided\n";
   }
 }
 
@@ -68,7 +68,7 @@ void write_translation_proof(const Arguments& a, const Scene& scene, const FreeS
     return;
   }
   const std::vector<RigidPose> poses = poses_about(scene, answer, given);
-  if (poses.empty()) throw InputError("--proof " + a.proof + ": the scene has no question; give it a start and a goal");
+  if (poses.empty()) throw InputError("--proof " + a.proof + ": the scene has no start and goal; add them");
   const MotionChecker checker = MotionChecker::of_scene(scene);
   CheckLimits limits;
   limits.keep_parts = true;
@@ -76,7 +76,7 @@ void write_translation_proof(const Arguments& a, const Scene& scene, const FreeS
   const bool is_path = answer.status == Answer::Status::kPath;
   if (known.status != (is_path ? MotionVerdict::Status::kFree : MotionVerdict::Status::kCollides)) {
     throw InputError("--proof " + a.proof +
-                     ": robot and obstacles touch where one of them is a surface, of which there is no proof");
+                     ": robot and obstacles touch at a surface, and proofs cannot state contacts with surfaces");
   }
   write_path_proof(a, checker, poses, known);
 }

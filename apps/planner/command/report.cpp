@@ -153,7 +153,7 @@ json answer_report(const Answer& answer, const Scene& scene, const FreeSpace* fr
 
 std::string unrounded_text(const std::vector<std::size_t>& waypoints) {
   if (waypoints.empty()) return "";
-  std::string text = "more decimals than --digits, for want of free way-points with fewer:";
+  std::string text = "way-points with more decimals than --digits, because none with fewer are free:";
   for (const std::size_t i : waypoints) text += ' ' + std::to_string(i);
   return text + '\n';
 }

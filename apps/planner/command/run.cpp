@@ -3,6 +3,8 @@
 // Which question is it? Each has a source of its own, which answers it, writes and prints.
 #include "apps/planner/command/runs.h"
 
+#include <ompl/config.h>
+
 #include <algorithm>
 #include <iostream>
 
@@ -10,6 +12,7 @@
 #include "apps/planner/rigid/pose_file.h"
 #include "apps/program/numbers.h"
 #include "apps/program/run_program.h"
+#include "apps/program/version.h"
 #include "nef/base/error.h"
 #include "nef/io/number_text.h"
 
@@ -62,8 +65,8 @@ int run(const Arguments& a) {
 }  // namespace
 
 int run_command(int argc, char** argv) {
-  CLI::App app("Plans the motion of a translating robot exactly: a path, or a proof that there is none.", "planner");
-  app.set_version_flag("--version", std::string("planner " NEF_VERSION));
+  CLI::App app("Plans motions among obstacles exactly: finds a path, or proves that there is none.", "planner");
+  app.set_version_flag("--version", version_text("planner", {"OMPL " OMPL_VERSION}));
   Session session("planner", std::cout, std::cerr);
   const ProgressFunction show = [&session](const char* phase, std::size_t done, std::size_t total) {
     session.show_phase(phase, done, total);

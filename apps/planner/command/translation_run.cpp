@@ -55,7 +55,7 @@ class TranslationRun {
         if (invalid) return tell_answer(*invalid, nullptr);
       }
       if (const std::optional<Answer> found = partial_answer(scene_, a_.path, limit_.monitor())) {
-        a_.session.note("tight passages were not looked for, since there is a path with room; --tight lists them");
+        a_.session.note("tight passages were not searched, because there is a path without them; --tight lists them");
         return tell_answer(*found, nullptr);
       }
     }
@@ -108,7 +108,7 @@ class TranslationRun {
     if (!widest_.is_null()) std::cout << widest_text(widest_);
     std::cout << status_name(answer.status);
     if (answer.status == AnswerStatus::kInfeasible) std::cout << " by translation at this orientation";
-    if (answer.status == AnswerStatus::kUndecided) std::cout << ": the --time was up";
+    if (answer.status == AnswerStatus::kUndecided) std::cout << ": the time limit (--time) was reached";
     if (answer.blocked_segment) std::cout << ": segment " << *answer.blocked_segment << " leaves free space";
     if (answer.collision) std::cout << ": " << describe(*answer.collision, scene_);
     if (answer.status == AnswerStatus::kInfeasible) {

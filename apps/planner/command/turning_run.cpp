@@ -185,7 +185,7 @@ int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& wi
            "--prefer", "--se3", "--proof"});
   require_extensions(a, "for a scene with a rotation", {"json", "txt", "csv", "glb", "html"});
   if (!a.ompl.empty() && a.path.digits) {
-    throw InputError("--digits: what OMPL's planners find for a robot that turns is not rounded");
+    throw InputError("--digits: OMPL's paths of a robot that turns cannot be rounded");
   }
   if (!a.check_proof.empty()) return check_proof(a, scene);
   const TimeLimit limit(a.time, a.session.monitor);

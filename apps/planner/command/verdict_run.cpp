@@ -116,9 +116,9 @@ void print(const PartsVerdict& verdict, const Assembly& assembly) {
     const PartVerdict& judged = verdict.parts[part];
     std::cout << assembly.names[part] << ": " << status_name(judged.status);
     if (judged.direction) std::cout << " along " << point_text(*judged.direction);
-    if (judged.status == PartVerdict::Status::kStuck) std::cout << ", held by " << stops_text(judged, assembly);
+    if (judged.status == PartVerdict::Status::kStuck) std::cout << ", blocked by " << stops_text(judged, assembly);
     if (judged.status == PartVerdict::Status::kUndecided) {
-      std::cout << ": it can begin to move, but leaves in no straight line that was tried; try --assembly";
+      std::cout << ": it can begin to move, but no straight line that was tried leads out; try --assembly";
     }
     std::cout << '\n';
   }

@@ -64,7 +64,7 @@ void require_valid(const Linkage& linkage) {
     }
   }
   for (const auto& [a, b] : linkage.allowed) {
-    if (std::max(a, b) >= linkage.links.size()) throw InputError("a pair of links is allowed that are not there");
+    if (std::max(a, b) >= linkage.links.size()) throw InputError("an allowed pair names a link that does not exist");
   }
 }
 

@@ -41,9 +41,9 @@ std::vector<Query> queries_of_lines(const std::string& text, const std::string& 
 std::vector<Query> read_queries(const std::string& file) {
   const std::string text = read_file(file);
   const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string::npos) throw InputError(file + ": holds no queries");
+  if (first == std::string::npos) throw InputError(file + ": contains no queries");
   std::vector<Query> queries = text[first] == '[' ? queries_of_json(text, file) : queries_of_lines(text, file);
-  if (queries.empty()) throw InputError(file + ": holds no queries");
+  if (queries.empty()) throw InputError(file + ": contains no queries");
   return queries;
 }
 

@@ -16,8 +16,8 @@ Problem::Problem(Scene scene, const Monitor& monitor) : scene_(std::move(scene))
 }
 
 Answer Problem::solve(const PathOptions& options, const Monitor& monitor) const {
-  if (!scene_.start) throw InputError(scene_.name + ": the scene has no start: give it one, or use --start x,y,z");
-  if (!scene_.goal) throw InputError(scene_.name + ": the scene has no goal: give it one, or use --goal x,y,z");
+  if (!scene_.start) throw InputError(scene_.name + ": the scene has no start; add one, or use --start x,y,z");
+  if (!scene_.goal) throw InputError(scene_.name + ": the scene has no goal; add one, or use --goal x,y,z");
   return solve(*scene_.start, *scene_.goal, options, monitor);
 }
 

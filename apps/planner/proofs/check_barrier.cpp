@@ -60,13 +60,13 @@ class BarrierCheck {
     for (std::size_t t = 0; t < barrier_.triangles.size(); ++t) {
       const PathProof::Triangle& triangle = barrier_.triangles[t];
       for (std::size_t k = 0; k < 3; ++k) {
-        if (triangle.corners[k] >= barrier_.points.size()) return "a triangle has a corner that is no point";
+        if (triangle.corners[k] >= barrier_.points.size()) return "a triangle names a point that does not exist";
         ++edges[std::minmax(triangle.corners[k], triangle.corners[(k + 1) % 3])];
       }
-      if (!is_closed(triangle)) return "triangle " + std::to_string(t) + " may be passed";
+      if (!is_closed(triangle)) return "triangle " + std::to_string(t) + " can be crossed";
     }
     for (const auto& [edge, count] : edges) {
-      if (count % 2 != 0) return "an edge is one of an odd number of triangles";
+      if (count % 2 != 0) return "an edge belongs to an odd number of triangles";
     }
     const std::optional<bool> start = crosses_odd(claim_.path.front().position);
     const std::optional<bool> goal = crosses_odd(claim_.path.back().position);

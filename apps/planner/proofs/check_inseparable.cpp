@@ -54,7 +54,7 @@ class InseparableCheck {
   explicit InseparableCheck(const InseparableProof& proof) : proof_(proof) {}
 
   Complaint run() {
-    if (proof_.parts.size() < 2) return "the claim has less than two parts";
+    if (proof_.parts.size() < 2) return "the claim has fewer than two parts";
     std::set<std::string> names;
     for (const InseparableProof::Part& part : proof_.parts) {
       if (!names.insert(part.name).second) return "two parts have the name " + part.name;
@@ -82,11 +82,11 @@ class InseparableCheck {
   Complaint check(const PieceContact& contact) {
     const std::vector<Rational3>* const first = piece(contact.first);
     const std::vector<Rational3>* const second = piece(contact.second);
-    if (first == nullptr || second == nullptr) return "a contact is of a piece that is not there";
-    if (contact.first.part == contact.second.part) return "a contact is of pieces of one part";
+    if (first == nullptr || second == nullptr) return "a contact names a piece that does not exist";
+    if (contact.first.part == contact.second.part) return "a contact joins two pieces of one part";
     const std::optional<Rational3> point = weighted_sum(*first, contact.common.robot, false);
     if (!point || point != weighted_sum(*second, contact.common.obstacle, false)) {
-      return "two pieces have not the point in common";
+      return "the point of a contact is not common to its pieces";
     }
     std::vector<Rational3> vectors;
     for (const Rational3& vertex : *second) vectors.push_back(minus(vertex, *point));
@@ -114,7 +114,7 @@ class InseparableCheck {
     std::vector<Tie> ties;
     for (const bool first : {true, false}) {
       for (const std::uint32_t number : first ? cone.first_blocked : cone.second_blocked) {
-        if (number >= proof_.contacts.size()) return "a contact is not there";
+        if (number >= proof_.contacts.size()) return "a cone names a contact that does not exist";
         if (!contains_all(normals_[number], first ? corners : back))
           return "a contact does not block all directions of a cone";
         const PieceContact& contact = proof_.contacts[number];
@@ -157,7 +157,7 @@ Complaint complaint_about(const InseparableProof& proof, const Assembly& assembl
     for (const auto& piece : part.pieces) hulls.push_back(convex_hull(piece, monitor));
     const Polyhedron& set = assembly.parts[static_cast<std::size_t>(found - assembly.names.begin())];
     if (!equal(unite_all(hulls, monitor), set, monitor))
-      return "the pieces of " + part.name + " are not the assembly's part";
+      return "the pieces of " + part.name + " do not make up the assembly's part";
     interiors.push_back(interior(set, monitor));
   }
   for (std::size_t a = 0; a < interiors.size(); ++a) {

@@ -98,13 +98,14 @@ class PathCheck {
     for (const RigidPose& pose : claim_.path) {
       if (scalar_product(pose.quaternion, pose.quaternion) == 0) return "the quaternion of a pose is zero";
     }
-    if (claim_.status != Status::kFree && !proof_.motions.empty()) return "only a free path has parts that are free";
+    if (claim_.status != Status::kFree && !proof_.motions.empty()) return "only the proof of a free path has motions";
     const int reasons = (proof_.collision ? 1 : 0) + (proof_.outside ? 1 : 0);
     if (reasons != (claim_.status == Status::kBlocked ? 1 : 0)) {
-      return "a path that collides, and no other, has either a collision or a pose outside the box";
+      return "the proof of a collision needs either a collision or a pose outside the box, and other proofs have "
+             "neither";
     }
     if (proof_.barrier.has_value() != (claim_.status == Status::kInfeasible)) {
-      return "a barrier shows that there is no path, and nothing else";
+      return "the proof that there is no path needs a barrier, and other proofs have none";
     }
     return std::nullopt;
   }
@@ -129,7 +130,7 @@ class PathCheck {
     for (const RigidPose& pose : claim_.path) {
       if (!in_box(pose.position)) return "a pose is outside the box";
     }
-    if (proof_.motions.size() != motion_count()) return "a motion has no parts, or there are too many";
+    if (proof_.motions.size() != motion_count()) return "the proof needs one list of parts per motion";
     for (std::size_t m = 0; m < proof_.motions.size(); ++m) {
       const Arc motion = arc(m);
       Rational from = 0;
@@ -148,13 +149,13 @@ class PathCheck {
     std::map<std::pair<std::size_t, std::size_t>, Rational3> planes;
     for (const PathProof::Plane& plane : part.planes) {
       if (plane.robot >= claim_.robot.size() || plane.obstacle >= claim_.obstacles.size()) {
-        return "a plane is between pieces that there are not";
+        return "a plane names a piece that does not exist";
       }
       planes[{plane.robot, plane.obstacle}] = plane.normal;
     }
     const Quaternion p = motion.quaternion(from);
     const Quaternion q = motion.quaternion(part.until);
-    if (scalar_product(p, q) <= 0) return "it turns too far";
+    if (scalar_product(p, q) <= 0) return "the motion turns too far";
     const std::array<Matrix3, 3> turns{rotation_between(p, p), rotation_between(p, q), rotation_between(q, q)};
     const std::array<Rational3, 2> positions{motion.position(motion.times(from)[0]),
                                              motion.position(motion.times(part.until)[1])};
@@ -195,13 +196,14 @@ class PathCheck {
 
   [[nodiscard]] Complaint check_collision() const {
     if (proof_.outside) {
-      if (*proof_.outside >= claim_.path.size()) return "there is no such pose";
-      if (in_box(claim_.path[*proof_.outside].position)) return "the pose is in the box";
+      if (*proof_.outside >= claim_.path.size()) return "the pose outside the box does not exist";
+      if (in_box(claim_.path[*proof_.outside].position)) return "the pose that should be outside the box is inside";
       return std::nullopt;
     }
     const PathProof::Collision& c = *proof_.collision;
-    if (c.motion >= motion_count()) return "there is no such motion";
-    if (c.robot >= claim_.robot.size() || c.obstacle >= claim_.obstacles.size()) return "there is no such piece";
+    if (c.motion >= motion_count()) return "the motion of the collision does not exist";
+    if (c.robot >= claim_.robot.size() || c.obstacle >= claim_.obstacles.size())
+      return "a piece of the collision does not exist";
     if (c.parameter < 0 || c.parameter > 1) return "the parameter is not between 0 and 1";
     const Arc motion = arc(c.motion);
     const std::array<Rational, 2> known = motion.times(c.parameter);
@@ -217,7 +219,7 @@ class PathCheck {
       const auto a = weighted_sum(placed, c.common[end].robot, inside);
       const auto b = weighted_sum(claim_.obstacles[c.obstacle], c.common[end].obstacle, inside);
       if (!a || !b) return "weights must be positive and add up to 1";
-      if (*a != *b) return "the two pieces have not the point in common";
+      if (*a != *b) return "the point of the collision is not common to the pieces";
     }
     return std::nullopt;
   }
@@ -258,8 +260,8 @@ Complaint compare(const ProofPieces& pieces, const std::vector<Polyhedron>& sets
 Complaint complaint_about(const PathProof& proof) { return PathCheck(proof).run(); }
 
 Complaint complaint_about(const PathProof::Claim& claim, const Scene& scene, const Monitor& monitor) {
-  if (claim.contact != scene.contact) return "the scene has another rule of contact";
-  if (claim.box != scene.box) return "the scene has another box";
+  if (claim.contact != scene.contact) return "the scene has a different contact rule";
+  if (claim.box != scene.box) return "the scene has a different box";
   const bool turned = std::any_of(claim.path.begin(), claim.path.end(), [](const RigidPose& pose) {
     return pose.quaternion[1] != 0 || pose.quaternion[2] != 0 || pose.quaternion[3] != 0;
   });

@@ -33,7 +33,7 @@ std::vector<RigidPose> poses_of_lines(const std::string& text, const std::string
 std::vector<RigidPose> poses_of_json(const std::string& text, const std::string& file) {
   const nlohmann::json value = parse_exact_json(text, file);
   const JsonReader root(value, file);
-  if (!root.has("path") || !value["path"].is_array()) root.fail("holds no 'path'");
+  if (!root.has("path") || !value["path"].is_array()) root.fail("has no list 'path'");
   return root["path"].list([](const JsonReader& pose) {
     if (!pose.has("position") || !pose.has("quaternion")) return RigidPose{pose.point()};
     return checked({pose["position"].point(), pose["quaternion"].exactly<4>(&JsonReader::number_of)}, pose.where());
@@ -51,7 +51,7 @@ std::vector<RigidPose> read_path(const std::string& file) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   const bool is_json = first != std::string::npos && text[first] == '{';
   std::vector<RigidPose> poses = is_json ? poses_of_json(text, file) : poses_of_lines(text, file);
-  if (poses.empty()) throw InputError(file + ": holds no way-points");
+  if (poses.empty()) throw InputError(file + ": contains no way-points");
   if (std::none_of(poses.begin(), poses.end(), is_turned)) {
     for (RigidPose& pose : poses) pose.quaternion = {1, 0, 0, 0};
   }

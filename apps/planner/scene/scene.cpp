@@ -41,8 +41,8 @@ Rational3 end_of(const JsonReader& value, Rational* angle) {
 void require_no_rotation(const Scene& scene) {
   if (!scene.rotation) return;
   throw InputError(scene.name +
-                   ": the robot turns (rotation), and this is about translations only: ask for a path, or leave the "
-                   "rotation out");
+                   ": the robot turns, but this works for translations only; plan a path, or remove 'rotation' from "
+                   "the scene");
 }
 
 Scene parse_scene(const std::string& text, const std::string& folder, const std::string& name,

@@ -191,7 +191,7 @@ Rational3 direction_of(const JsonReader& value) {
 std::array<Rational, 2> range_of(const JsonReader& value, const std::optional<int>& most) {
   std::array<Rational, 2> range = value.exactly<2>(&JsonReader::number_of);
   if (range[0] >= range[1] || (most && range[1] - range[0] > *most)) {
-    value.fail("must go up" + (most ? ", by no more than " + std::to_string(*most) + " degrees" : ""));
+    value.fail("must increase" + (most ? ", by at most " + std::to_string(*most) + " degrees" : ""));
   }
   return range;
 }

@@ -94,7 +94,7 @@ class Collector {
       if (face.mNumIndices != 3) continue;
       std::array<std::uint32_t, 3> corners{};
       for (std::size_t i = 0; i < 3; ++i) {
-        if (face.mIndices[i] >= index.size()) throw InputError("a face names a vertex that is not there");
+        if (face.mIndices[i] >= index.size()) throw InputError("a face names a vertex that does not exist");
         corners[i] = index[face.mIndices[i]];
       }
       std::array<std::uint32_t, 3> sorted = corners;
@@ -120,7 +120,7 @@ Triangles read_triangles(const std::string& path) {
     if (why.find("std::bad_alloc") != std::string::npos) throw std::bad_alloc();
     throw InputError(why);
   }
-  if (scene->mRootNode == nullptr || scene->mNumMeshes == 0) throw InputError("holds no mesh");
+  if (scene->mRootNode == nullptr || scene->mNumMeshes == 0) throw InputError("contains no mesh");
   Collector collector(*scene);
   collector.walk(*scene->mRootNode, aiMatrix4x4());
   return collector.triangles();

@@ -60,7 +60,7 @@ class ProofCheck {
  private:
   Complaint cut_up() {
     static const std::string kWrongPieces = "a set was cut into pieces that are not in it";
-    if (!scene_.robot.is_bounded() || !scene_.robot.is_regular()) return "the robot is no bounded solid";
+    if (!scene_.robot.is_bounded() || !scene_.robot.is_regular()) return "the robot is not a bounded solid";
     std::optional<std::vector<Points>> robot = pieces_of(scene_.robot, monitor_);
     if (!robot) return kWrongPieces;
     robot_ = *std::move(robot);
@@ -135,7 +135,7 @@ class ProofCheck {
           return std::all_of(inner.begin(), inner.end(),
                              [&](const Rational3& v) { return stays_inside(v, piece, at_a, at_b); });
         });
-        if (!held) return "the robot does not hold its inner robot at every angle of " + cell_name(i);
+        if (!held) return "the robot does not contain its inner robot at every angle of " + cell_name(i);
       }
     }
     return std::nullopt;

@@ -328,7 +328,7 @@ TurningAnswer find_turning_path(const Scene& scene, const TurningQuestion& quest
                                 const Monitor& monitor) {
   for (const Pose* pose : {&question.start, &question.goal}) {
     if (pose->turn < question.low || pose->turn > question.high) {
-      throw InputError("start and goal must be turned by angles of the range");
+      throw InputError("the angles of start and goal must lie in the range");
     }
   }
   if (!(question.low < question.high)) throw InputError("the range of angles must have an extent");

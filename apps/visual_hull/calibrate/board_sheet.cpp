@@ -104,7 +104,7 @@ std::string board_png(const Board& board) {
   constexpr double kPixels = 20;  // a millimetre
   constexpr double kLongest = 2000;
   if (std::max(board.width(), board.height()) > kLongest) {
-    throw nef::InputError("a board of more than 2 m is no picture; name a .pdf or .svg file");
+    throw nef::InputError("a board of more than 2 m cannot be a PNG; name a .pdf or .svg file");
   }
   const cv::Mat picture = board_picture(board, kPixels);
   return nef::view::png_bytes({static_cast<std::uint32_t>(picture.cols),

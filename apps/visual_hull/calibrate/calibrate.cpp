@@ -182,13 +182,13 @@ nef::Messages calibration_notes(const Calibration& calibration, bool own_lens) {
   note_refused(calibration.lens_views, notes);
   if (calibration.lens.centred) {
     notes.emplace_back(
-        "the boards do not tell where the axis of the lens meets the image; the middle is taken: photographs of the "
-        "board held at several tilts (--lens) tell");
+        "the boards do not determine where the axis of the lens meets the image, so its middle is assumed; add "
+        "photographs of the board at several tilts (--lens)");
   }
   if (calibration.lens.focal_share > kSureFocal) {
     notes.push_back(
-        fmt::format("the focal length is known to {:.1f} % only: photographs of the board held at several "
-                    "tilts (--lens) tell more",
+        fmt::format("the focal length is known only to {:.1f} %; add photographs of the board at several tilts "
+                    "(--lens)",
                     100 * calibration.lens.focal_share));
   }
   if (!own_lens && calibration.error_px > kOtherLens * calibration.lens.error_px) {

@@ -31,7 +31,7 @@ cv::Mat load_photograph(const ViewResult& view, PixelOrigin origin) {
   cv::Mat image = read_photograph(file, view.distortion, origin);
   if (image.empty()) throw nef::InputError("view " + view.name + ": cannot read the image " + file.string());
   if (image.size() != view.silhouette.image_size) {
-    throw nef::InputError("view " + view.name + ": " + file.string() + " has not the size of the silhouette's image");
+    throw nef::InputError("view " + view.name + ": " + file.string() + " differs in size from the silhouette's image");
   }
   return image;
 }
@@ -157,7 +157,7 @@ VertexColors vertex_colors(const nef::Mesh& mesh, const std::vector<ViewResult>&
   for (const ViewResult& view : views) {
     if (!view.image.empty()) seeing.push_back(&view);
   }
-  if (seeing.empty()) throw nef::InputError("--color: no view has an image, polygons have no colours");
+  if (seeing.empty()) throw nef::InputError("--color needs images; the views are polygons");
   Points points;
   for (const nef::Rational3& p : mesh.vertices) {
     points.push_back({nef::nearest_double(p[0]), nef::nearest_double(p[1]), nef::nearest_double(p[2])});

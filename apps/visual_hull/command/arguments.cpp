@@ -5,8 +5,10 @@
 #include "apps/visual_hull/command/arguments.h"
 
 #include <cstdlib>
+#include <opencv2/core/version.hpp>
 
 #include "apps/program/common_options.h"
+#include "apps/program/version.h"
 #include "apps/visual_hull/formats/scene_json.h"
 #include "apps/visual_hull/formats/turntable.h"
 #include "apps/visual_hull/scene/axes.h"
@@ -18,14 +20,14 @@ namespace visual_hull {
 namespace {
 
 const char* const kFooter =
-    "visual_hull masks PHOTOGRAPHS -o DIR cuts objects out of photographs, visual_hull board -o FILE.pdf makes a "
-    "board\n"
-    "to be printed, visual_hull calibrate PHOTOGRAPHS -o SCENE.json finds cameras by it (each has a --help).\n"
-    "Scenes are told apart by their content; --check says what was understood:\n"
+    "Subcommands, each with a --help: visual_hull masks PHOTOGRAPHS -o DIR cuts objects out of photographs,\n"
+    "visual_hull board -o FILE.pdf makes a board for printing, and visual_hull calibrate PHOTOGRAPHS -o SCENE.json\n"
+    "finds the cameras of photographs of such a board.\n"
+    "Formats of scenes are recognized by content; --check reports what was understood:\n"
     "  .json      {\"cameras\": [{\"image\": FILE, \"P\": 3x4} or {\"image\": FILE, \"K\": 3x3, \"R\": 3x3, \"t\": 3,\n"
     "             \"distortion\": [k1, k2, p1, p2, ...]}, ...], \"box\": [x0,y0,z0,x1,y1,z1], \"threshold\": "
     "N|\"otsu\"};\n"
-    "             \"polygons\": [[[u,v], ...], ...] or \"silhouette\": FILE.json may stand in place of \"image\"\n"
+    "             \"polygons\": [[[u,v], ...], ...] or \"silhouette\": FILE.json may replace \"image\"\n"
     "  .json      NeRF's, instant-ngp's or nerfstudio's transforms (with \"frames\")\n"
     "  DIR        a COLMAP model (cameras and images, .txt or .bin; also in sparse/0), a transforms.json,\n"
     "             NAME.pa, each a 3x4 matrix, or PMVS's CONTOUR files (in txt/)\n"
@@ -36,59 +38,60 @@ const char* const kFooter =
     "  .txt       name and 12 numbers (3x4 matrix) on each line, or matrices of three lines, or blocks of\n"
     "             '#Intrinsic parameter' and '#Extrinsic parameter for IMAGE'\n"
     "  .vsh       Hachenberger's polygons in space\n"
-    "Numbers are the rationals that they spell (\"1/3\" too). x = P X; u = x1/x3 to the right, v = x2/x3 down,\n"
+    "Numbers are exact (\"1/3\" too). x = P X; u = x1/x3 to the right, v = x2/x3 down,\n"
     "x3 > 0 in front. Images are looked up beside the scene and in masks/, silhouettes/ and images/ there.\n"
-    "-o, --report, --page, --refined-scene write beside the target, then rename.\n"
-    "Exit codes: 0 done, 1 empty or flat hull or failed --verify, 2 bad input or usage.";
+    "-o, --report, --page and --refined-scene write a temporary file and rename it on success.\n"
+    "Exit codes: 0 success, 1 empty or flat hull or failed --verify, 2 bad input or usage.";
 
 void add_input_options(CLI::App& app, Arguments& a) {
   app.add_option("SCENE", a.scene, "Cameras, in one of the formats below; with --turntable a folder of images")
       ->required();
-  app.add_flag("--check", a.check, "Say what is understood of the scene, a line a view, and compute nothing");
+  app.add_flag("--check", a.check, "Report what is understood of the scene, one line per view, and compute nothing");
   app.add_option("--up", a.up, "The axis of the scene that becomes +z: x, y, z, -x, -y or -z")->type_name("AXIS");
   app.add_option("--matrices", a.matrices,
-                 "Which matrices of an OpenCV or MATLAB file are the projections; * stands for a number")
+                 "Which matrices of an OpenCV or MATLAB file are the projections; * matches a number")
       ->type_name("NAME");
   CLI::Option* turntable =
       app.add_option("--turntable", a.turntable, "The object turns by 1/N of a turn between images; -N: clockwise")
           ->type_name("N");
-  app.add_option("--K", a.intrinsics, "Of the turntable: f,cx,cy or fx,fy,cx,cy or nine numbers")
+  app.add_option("--K", a.intrinsics, "Camera of the turntable: f,cx,cy or fx,fy,cx,cy or nine numbers")
       ->delimiter(',')
       ->needs(turntable);
-  app.add_option("--radius", a.radius, "Of the turntable: from its axis (z) to the camera")->needs(turntable);
-  app.add_option("--height", a.height, "Of the turntable: of the camera above the origin, which it looks at")
+  app.add_option("--radius", a.radius, "Distance of the camera from the axis (z) of the turntable")->needs(turntable);
+  app.add_option("--height", a.height, "Height of the camera of the turntable above the origin, which it looks at")
       ->needs(turntable);
-  app.add_option(
-         "--images", a.images,
-         "Directory with an image for each view: of the names that the scene gives its images, else in the order of "
-         "the numbers in their names")
+  app.add_option("--images", a.images,
+                 "Directory with an image for each view, found by the names in the scene, or else by the order of the "
+                 "numbers in "
+                 "their names")
       ->type_name("DIR");
   app.add_option(
          "--frames", a.frames,
-         "Video: a folder of images a frame, as in frame_%04d/; -o has such a place, too. Frames that the manifest "
-         "beside the hulls knows are not made again")
+         "Video: one folder of images per frame, as in frame_%04d/; -o needs such a number, too. Frames that the "
+         "manifest beside the hulls lists are not computed again")
       ->type_name("DIR%d");
   app.add_option("--silhouette", a.silhouettes,
-                 "[VIEW=]FILE.json: polygons in place of a view's image; without VIEW for the views in their order")
+                 "[VIEW=]FILE.json: polygons instead of a view's image; without VIEW, for the views in order")
       ->take_all()
       ->type_name("FILE");
   app.add_option("--threshold", a.threshold,
-                 "N or otsu: brighter than this is object (default: half of the range, or alpha)")
+                 "N or otsu: pixels brighter than this are object (default: half of the range, or alpha)")
       ->type_name("N");
-  app.add_option("--channel", a.channel, "What --threshold looks at, e.g. red before a blue screen (default: gray)")
+  app.add_option("--channel", a.channel,
+                 "Channel that --threshold compares, such as red before a blue screen (default: gray)")
       ->check(CLI::IsMember(channel_names()));
   app.add_option("--mask", a.mask,
-                 "The images are photographs: cut the object out, by one rule for all: " + mask_help())
+                 "The images are photographs: cut the object out of all of them by one method: " + mask_help())
       ->type_name("METHOD");
   app.add_flag("--repair-masks", a.repair_masks,
-               "Decide again what the other views contradict in a mask of --mask, and tell each change");
+               "Correct pixels of the masks of --mask that the other views contradict, and report each change");
   app.add_flag("--invert", a.invert, "The object is darker than the background");
-  app.add_option("--pixel-origin", a.origin,
-                 "Whole image coordinates are the center or the upper left corner of a pixel (default: as the "
-                 "format has it)")
+  app.add_option(
+         "--pixel-origin", a.origin,
+         "Whether whole image coordinates are the center or the upper left corner of a pixel (default: by format)")
       ->check(CLI::IsMember({"center", "corner"}));
   app.add_option("--border", a.border,
-                 "A silhouette that the image frame cuts ends there (outside) or may go on (unknown)")
+                 "A silhouette that is cut by the image frame ends there (outside) or may go on (unknown)")
       ->check(CLI::IsMember({"outside", "unknown"}))
       ->capture_default_str();
   app.add_option("--min-area", a.min_area,
@@ -99,44 +102,45 @@ void add_input_options(CLI::App& app, Arguments& a) {
       ->check(nef::not_negative())
       ->type_name("PX");
   app.add_flag("--outer", a.outer, "Simplified polygons contain the contour: the hull is an outer bound");
-  app.add_option("--box", a.box, "x0,y0,z0,x1,y1,z1: the part of space to look at; found from the cones if missing")
+  app.add_option("--box", a.box, "x0,y0,z0,x1,y1,z1: the part of space to compute (default: found from the cones)")
       ->type_name("BOX");
 }
 
 void add_output_options(CLI::App& app, Arguments& a) {
   app.add_option(
          "-o,--output", a.session.output,
-         "Write the hull; its extension (" + nef::word_list(nef::file_extensions(), "or") + ") picks the format")
+         "Write the hull; the extension (" + nef::word_list(nef::file_extensions(), "or") + ") selects the format")
       ->type_name("FILE");
   nef::add_file_output_options(app, a.session.exact, a.session.binary, a.session.text);
   nef::add_mesh_file_options(app, a.session.mesh_file);
-  app.add_option("--decimate", a.decimate, "Write a mesh of about N triangles, and tell how far it is from the hull")
+  app.add_option("--decimate", a.decimate, "Write a mesh of about N triangles, and report its distance from the hull")
       ->check(nef::positive())
       ->type_name("N");
-  app.add_flag(
-      "--manifold", a.session.mesh_file.manifold,
-      "Write a mesh in which each edge has two faces: diagonal pixels are joined, what touches still is split");
+  app.add_flag("--manifold", a.session.mesh_file.manifold,
+               "Write a mesh in which each edge has two faces: diagonal pixels are joined, other contacts are split");
   app.add_flag("--color", a.color,
-               "Vertices get the mean colour of the views that see them (PLY, GLB); photographs of masks/NAME are "
-               "looked up in images/");
+               "Give each vertex the mean colour of the views that see it (PLY, GLB); photographs for masks/NAME are "
+               "searched in images/");
   app.add_flag("--verify", a.verify, "Project the hull back into every view; exit code 1 if it is not inside");
-  app.add_option("--way", a.way,
-                 "Vertex by vertex (direct), by intersecting cones, or as is best; the hull is the same")
+  app.add_option(
+         "--way", a.way,
+         "Vertex by vertex (direct), by intersecting cones (cones), or whichever suits the views (best); same hull")
       ->check(CLI::IsMember({"best", "direct", "cones"}))
       ->capture_default_str();
-  CLI::Option* refine =
-      app.add_flag("--refine", a.refine,
-                   "Correct the cameras so that the silhouettes agree, if outlines not used for that agree, too");
+  CLI::Option* refine = app.add_flag(
+      "--refine", a.refine,
+      "Correct the cameras so that the silhouettes agree, if this also improves outlines that were not used");
   app.add_option("--refined-scene", a.refined_scene, "Write the scene with the cameras that were used")
       ->needs(refine)
       ->type_name("FILE.json");
-  app.add_flag("--suspects", a.suspects, "Compare the views: which one disagrees with the others");
-  app.add_flag("--drop-suspects", a.drop_suspects, "Leave out the view that disagrees, compare again, and so on");
+  app.add_flag("--suspects", a.suspects, "Compare the views and report which one disagrees with the others");
+  app.add_flag("--drop-suspects", a.drop_suspects, "Leave out the view that disagrees, and repeat until none does");
   app.add_option("--at-least", a.at_least, "The points in at least K silhouettes, instead of in all")
       ->check(nef::positive())
       ->type_name("K");
   app.add_flag("--largest", a.largest, "Keep the piece of the largest volume only");
-  app.add_flag("--exact-volume", a.exact_volume, "Report the exact volume, too: millions of digits for detailed hulls");
+  app.add_flag("--exact-volume", a.exact_volume,
+               "Report the exact volume, too (millions of digits for detailed hulls)");
   app.add_option("--report", a.session.report, "Write a report as JSON ('-': standard output)")->type_name("FILE.json");
   app.add_option("--overlay", a.overlay, "Directory for a picture per view: image, polygon, projection of the hull")
       ->type_name("DIR");
@@ -148,14 +152,15 @@ void add_output_options(CLI::App& app, Arguments& a) {
 }  // namespace
 
 std::string mask_help() {
-  return "auto (by what separates best), threshold[:CHANNEL[:LEVEL]] (<LEVEL: darker ones), background:FILE (a picture "
+  return "auto (the measure that separates best), threshold[:CHANNEL[:LEVEL]] (<LEVEL: darker ones), background:FILE "
+         "(a picture "
          "without the object), background:median (of a still camera), key:COLOUR (of a screen: #RRGGBB or a name), or "
          "grabcut[:X,Y,W,H]";
 }
 
 void add_options(CLI::App& app, Arguments& arguments) {
   app.name("visual_hull");
-  app.set_version_flag("--version", std::string("visual_hull ") + NEF_VERSION);
+  app.set_version_flag("--version", nef::version_text("visual_hull", {"OpenCV " CV_VERSION}));
   app.footer(kFooter);
   add_input_options(app, arguments);
   add_output_options(app, arguments);
@@ -173,7 +178,7 @@ Options to_options(const Arguments& a) {
   if (!a.channel.empty()) options.silhouette.threshold.channel = parse_channel(a.channel);
   if (!a.mask.empty()) {
     if (!a.threshold.empty() || !a.channel.empty() || a.invert) {
-      throw nef::InputError("--mask makes masks of photographs: --threshold, --channel and --invert do not go with it");
+      throw nef::InputError("--mask excludes --threshold, --channel and --invert, which are for images that are masks");
     }
     options.mask = parse_mask_method(a.mask);
   }
@@ -185,10 +190,8 @@ Options to_options(const Arguments& a) {
   options.suspects = a.suspects;
   options.drop_suspects = a.drop_suspects;
   if (a.at_least != 0) {
-    if (a.verify)
-      throw nef::InputError("--at-least and --verify exclude each other: such a set is not inside every view");
-    if (a.way == "direct")
-      throw nef::InputError("--at-least is found by overlaying cones: --way direct does not go with it");
+    if (a.verify) throw nef::InputError("--at-least excludes --verify: such a set is not inside every view");
+    if (a.way == "direct") throw nef::InputError("--at-least excludes --way direct: it overlays cones");
     options.at_least = a.at_least;
   }
   options.verify = a.verify;

@@ -104,10 +104,9 @@ int run_calibrate(CalibrateArguments& a) {
 
 int run_board_command(int argc, char** argv) {
   BoardArguments a;
-  CLI::App app(
-      "A board to be printed, by which cameras are calibrated. Print it at 100 % and measure the line below it.");
+  CLI::App app("Makes a board for the calibration of cameras. Print it at 100 % and measure the line below it.");
   app.name("visual_hull board");
-  app.add_option("-o,--output", a.session.output, "The sheet; without its page and line as PNG")
+  app.add_option("-o,--output", a.session.output, "The sheet; a PNG contains the board only")
       ->required()
       ->type_name("FILE.pdf|svg|png");
   app.add_option("--board", a.board, kBoardHelp)->type_name("BOARD")->capture_default_str();
@@ -119,20 +118,22 @@ int run_board_command(int argc, char** argv) {
 int run_calibrate_command(int argc, char** argv) {
   CalibrateArguments a;
   CLI::App app(
-      "Cameras, in millimetres, of photographs of an object that stands on a board or turns with it: z is up from the "
-      "sheet, the origin its middle.");
+      "Finds the cameras, in millimetres, of photographs of an object that lies on a board or turns with it. The "
+      "origin is "
+      "the middle of the sheet; z points up.");
   app.name("visual_hull calibrate");
   app.footer(
-      "Photographs that are left out are named on stderr, with the reason. Exit codes: 0 done, 2 bad input or usage.");
+      "Photographs that are left out are named on stderr, with the reason. Exit codes: 0 success, 2 bad input or "
+      "usage.");
   app.add_option("PHOTOGRAPHS", a.photographs, "A folder of photographs, or files")->required();
   app.add_option("-o,--output", a.session.output, "The scene with the cameras and the names of the photographs")
       ->required()
       ->type_name("SCENE.json");
   app.add_option("--board", a.board, kBoardHelp)->type_name("BOARD")->capture_default_str();
-  app.add_option(
-         "--lens", a.lens,
-         "Photographs (a folder or files) of the board held at several tilts, by the same camera at the same zoom "
-         "and focus: the lens is determined by them")
+  app.add_option("--lens", a.lens,
+                 "Photographs (a folder or files) of the board at several tilts, by the same camera at the same zoom "
+                 "and focus, "
+                 "which determine the lens")
       ->type_name("PHOTOGRAPHS");
   app.add_option("--report", a.session.report, "Write a report as JSON ('-': standard output)")->type_name("FILE.json");
   nef::add_run_flags(&app, a.session);

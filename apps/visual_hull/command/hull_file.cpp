@@ -16,10 +16,10 @@ namespace visual_hull {
 namespace {
 
 void need_mesh(const Arguments& a, const std::string& option, bool (*suits)(const nef::MeshFormat&)) {
-  if (a.session.output.empty()) throw nef::InputError(option + " writes a mesh: give it a name with -o");
+  if (a.session.output.empty()) throw nef::InputError(option + " writes a mesh: name its file with -o");
   const nef::MeshFormat* format = nef::find_mesh_format(nef::lower_extension(a.session.output));
   if (format != nullptr && suits(*format)) return;
-  throw nef::InputError(option + ": " + a.session.output + " cannot hold that; " +
+  throw nef::InputError(option + ": " + a.session.output + " cannot store this; " +
                         nef::mesh_format_names(suits, "and") + " can");
 }
 
@@ -27,7 +27,7 @@ std::vector<Color> colors_of(const nef::Mesh& mesh, const Result& result, const 
                              nef::Messages& messages) {
   VertexColors found = vertex_colors(mesh, result.views, result.origin, monitor);
   if (found.unseen > 0) {
-    messages.push_back(fmt::format("{} of {} vertices are seen by no view: they have the colours of their neighbours",
+    messages.push_back(fmt::format("{} of {} vertices are seen by no view and get the colours of their neighbours",
                                    found.unseen, found.colors.size()));
   }
   const bool masks = std::all_of(result.views.begin(), result.views.end(), [](const ViewResult& view) {
@@ -35,7 +35,8 @@ std::vector<Color> colors_of(const nef::Mesh& mesh, const Result& result, const 
     return (folder == "masks" || folder == "silhouettes") && photograph_of(view.image) == view.image;
   });
   if (masks) {
-    messages.push_back("the colours are those of the masks: no photographs of their names are in images/ beside them");
+    messages.push_back(
+        "the colours are those of the masks, because images/ beside them has no photographs of the same names");
   }
   return std::move(found.colors);
 }

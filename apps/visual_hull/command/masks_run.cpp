@@ -41,7 +41,8 @@ std::vector<fs::path> targets_of(const std::vector<fs::path>& photographs, const
   for (const fs::path& file : photographs) {
     targets.push_back(folder / (file.stem().string() + ".png"));
     if (!seen.insert(targets.back()).second) {
-      throw nef::InputError(file.string() + ": another photograph has the same name, so their masks would, too");
+      throw nef::InputError(file.string() +
+                            ": another photograph has the same name, so one mask would replace the other");
     }
     std::error_code error;
     if (fs::equivalent(file, targets.back(), error)) {
@@ -104,11 +105,11 @@ int run(MaskArguments& a) {
 
 int run_masks_command(int argc, char** argv) {
   MaskArguments a;
-  CLI::App app("Masks of photographs of one object: white where it is, by one rule for all of them.");
+  CLI::App app("Makes masks of photographs of one object: white where the object is, by one method for all of them.");
   app.name("visual_hull masks");
   app.footer(
-      "Each mask is DIR/NAME.png. Masks that want a look are named on stderr: no object, an odd size, an outline that\n"
-      "hardly separates anything. Exit codes: 0 done, 2 bad input or usage.");
+      "Each mask is DIR/NAME.png. Masks to check are named on stderr: no object, an odd size, an outline that\n"
+      "hardly separates anything. Exit codes: 0 success, 2 bad input or usage.");
   app.add_option("PHOTOGRAPHS", a.photographs, "A folder of photographs, or files")->required();
   app.add_option("-o,--output", a.session.output, "Directory for the masks")->required()->type_name("DIR");
   app.add_option("--mask", a.mask, mask_help())->type_name("METHOD")->capture_default_str();

@@ -181,7 +181,8 @@ std::vector<std::string> verdict_lines(const Result& result) {
   const std::vector<std::size_t> order = found.ranked();
   std::vector<std::string> first;
   for (std::size_t i = 0; i < std::min<std::size_t>(3, order.size()); ++i) first.push_back(result.views[order[i]].name);
-  lines.push_back(fmt::format("no view clearly disagrees with the others; most do {}", fmt::join(first, ", ")));
+  lines.push_back(
+      fmt::format("no view clearly disagrees with the others; these disagree most: {}", fmt::join(first, ", ")));
   return lines;
 }
 
@@ -202,16 +203,16 @@ std::vector<std::string> refinement_lines(const Result& result) {
         r.focal_factor));
   } else {
     lines.push_back(
-        fmt::format("cameras not refined: nothing that the silhouettes tell is better than the given ones, of which "
-                    "outlines are off by {:.3f} px",
+        fmt::format("cameras not refined: the silhouettes give no better ones than those given, whose outlines are off "
+                    "by {:.3f} px",
                     r.before.mean));
   }
   for (const refine::RefinedView& view : r.views) {
     if (view.fault == refine::Fault::kCamera) {
-      lines.push_back(fmt::format("view {}: its camera stood {:.1f} px off and was moved", view.name, view.moved_px));
+      lines.push_back(fmt::format("view {}: its camera was {:.1f} px off and was moved", view.name, view.moved_px));
     } else if (view.fault == refine::Fault::kMask) {
       lines.push_back(
-          fmt::format("view {}: its mask disagrees with the other views wherever its camera stands", view.name));
+          fmt::format("view {}: its mask disagrees with the other views wherever its camera is placed", view.name));
     }
   }
   if (!r.undetermined.empty()) {
@@ -245,8 +246,8 @@ std::optional<std::string> cut_note(const Result& result) {
       fmt::format("{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(told), ", "));
   if (told < names.size()) list += fmt::format(" and {} more", names.size() - told);
   return fmt::format(
-      "the frame cuts the silhouette{} of view{} {}, and what lies beyond it is taken as background; --border unknown "
-      "leaves that open",
+      "the image frame cuts the silhouette{} of view{} {}; beyond the frame is taken as background, unless --border is "
+      "unknown",
       names.size() == 1 ? "" : "s", names.size() == 1 ? "" : "s", list);
 }
 

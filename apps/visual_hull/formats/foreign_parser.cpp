@@ -80,7 +80,7 @@ Scene read_with_limits(const std::filesystem::path& file, const std::string& par
   if (scene) return scene_of(*scene);
   throw nef::InputError(
       fmt::format("{}: {} could not read the file within {}: it is damaged or nested too "
-                  "deeply; write its matrices to a text file, a name and twelve numbers a line",
+                  "deeply; write its matrices to a text file, a name and twelve numbers per line",
                   file.string(), parser, nef::limits_text(limits)));
 }
 

@@ -112,13 +112,13 @@ Scene scene_in(const std::string& file, const std::string& variable) {
   if (variables.size() > 1 && !singles) {
     std::string found;
     for (const Variable& v : variables) found += (found.empty() ? "" : ", ") + v.name;
-    throw nef::InputError(file + ": several variables hold 3x4 matrices (" + found + "): name one with --matrices");
+    throw nef::InputError(file + ": several variables are 3x4 matrices (" + found + "): name one with --matrices");
   }
   // P9 before P10.
   std::stable_sort(variables.begin(), variables.end(),
                    [](const Variable& a, const Variable& b) { return naturally_before(a.name, b.name); });
   Scene scene;
-  scene.format = "MATLAB file, " + (variables.size() > 1 ? "a variable a view" : "variable " + variables[0].name);
+  scene.format = "MATLAB file, " + (variables.size() > 1 ? "one variable per view" : "variable " + variables[0].name);
   for (const Variable& v : variables) {
     for (const Matrix34d& m : v.matrices) {
       scene.views.push_back(make_view(variables.size() > 1 ? v.name : std::to_string(scene.views.size() + 1), m));

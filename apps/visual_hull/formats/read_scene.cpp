@@ -34,7 +34,7 @@ bool is_colmap_file(const fs::path& file) {
 // Files of other formats have their matrices where the format says.
 void refuse_matrices(const fs::path& file, const ReadOptions& options) {
   if (options.matrices.empty()) return;
-  throw nef::InputError("--matrices: " + file.string() + " is no OpenCV FileStorage and no MATLAB file");
+  throw nef::InputError("--matrices: " + file.string() + " is neither an OpenCV FileStorage nor a MATLAB file");
 }
 
 }  // namespace

@@ -144,13 +144,13 @@ Scene read_parameter_blocks(const std::string& text, const fs::path& file) { ret
 Scene read_camera_folder(const fs::path& folder) {
   std::vector<fs::path> files = files_with(folder, ".pa");
   Scene scene;
-  scene.format = "a folder of NAME.pa, a 3x4 matrix each";
+  scene.format = "a folder of NAME.pa, one 3x4 matrix per file";
   if (files.empty()) {
     for (const char* sub : {"txt", "calib", "cameras", ""}) {
       files = contour_files(*sub == '\0' ? folder : folder / sub);
       if (!files.empty()) break;
     }
-    scene.format = "a PMVS folder of CONTOUR files, a 3x4 matrix each";
+    scene.format = "a PMVS folder of CONTOUR files, one 3x4 matrix per file";
   }
   if (files.empty()) {
     throw nef::InputError(folder.string() +

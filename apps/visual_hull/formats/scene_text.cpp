@@ -124,7 +124,7 @@ class TextScene {
     if (n == 22 || n == 21) {
       const std::vector<Rational> v = numbers(line, n - 21);
       const std::string name = n == 22 ? line.tokens[0] : default_name();
-      kind_ = "K R t a line (Middlebury)";
+      kind_ = "K R t per line (Middlebury)";
       add(name, Camera::from_parts(name, matrix3(v, 0), matrix3(v, 9), {v[18], v[19], v[20]}), n == 22);
       return i + 1;
     }

@@ -72,7 +72,7 @@ Rational3 normal_away_from(const std::vector<std::vector<Rational3>>& polygons, 
     }
   }
   const int side = sgn(dot(normal, minus(origin, centre)));
-  if (side == 0) throw nef::InputError(where + ": the plane of the polygons holds the camera's centre");
+  if (side == 0) throw nef::InputError(where + ": the plane of the polygons contains the camera's centre");
   if (side < 0) {
     for (Rational& c : normal) c = -c;
   }
@@ -124,8 +124,8 @@ Scene read_vsh(const std::string& text, const std::filesystem::path& file) {
   Scene scene;
   scene.format = "polygons in space (.vsh)";
   scene.box.emplace();
-  scene.box->low = reader.point("room's smallest corner");
-  scene.box->high = reader.point("room's largest corner");
+  scene.box->low = reader.point("smallest corner of the box");
+  scene.box->high = reader.point("largest corner of the box");
   reader.recognized();
   check_box(*scene.box, where);
   const std::size_t cameras = reader.count("number of cameras", 1);

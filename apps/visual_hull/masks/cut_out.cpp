@@ -105,7 +105,7 @@ class Series {
       pictures.push_back(read_picture(file));
       if (pictures.back().size() != pictures.front().size()) {
         throw nef::InputError("--mask background:median: " + file.string() +
-                              " has another size than the first photograph: the camera has to stand still");
+                              " differs in size from the first photograph; the camera must not move");
       }
     }
     if (pictures.size() < 3) throw nef::InputError("--mask background:median needs at least three photographs");

@@ -130,7 +130,7 @@ std::vector<fs::path> images_of(const Scene& scene, const fs::path& folder, cons
     std::vector<fs::path> files = list_images(*images);
     if (files.size() != count) {
       throw nef::InputError(
-          fmt::format("{} holds {} images, but the scene has {} views", images->string(), files.size(), count));
+          fmt::format("{} contains {} images, but the scene has {} views", images->string(), files.size(), count));
     }
     return pair_images(scene.views, *images, std::move(files), notes);
   }

@@ -123,7 +123,7 @@ std::string understood(const Scene& scene) {
   }
   if (parallel < sights.size()) line += fmt::format("; focal length {}{}", focal.text(), pixels ? " pixels" : "");
   if (parallel > 0) {
-    line += fmt::format("; {} with parallel lines of sight, {}{} a unit of length",
+    line += fmt::format("; {} with parallel lines of sight, {}{} per unit of length",
                         parallel == sights.size() ? "all" : std::to_string(parallel), scale.text(),
                         pixels ? " pixels" : "");
   }
@@ -168,7 +168,7 @@ std::vector<std::string> view_lines(const Scene& scene, const std::vector<std::f
         view.polygons ? fmt::format("{} polygons", view.polygons->size())
                       : (i < images.size() && !images[i].empty() ? images[i].string() : std::string("no image"));
     std::string line = s.parallel
-                           ? fmt::format("{}: {}; parallel lines of sight along {}, {:.5g} x {:.5g} a unit of length",
+                           ? fmt::format("{}: {}; parallel lines of sight along {}, {:.5g} x {:.5g} per unit of length",
                                          view.name, source, text(s.axis, 1), s.focal_x, s.focal_y)
                            : fmt::format("{}: {}; focal length {:.5g} x {:.5g}, centre {}", view.name, source,
                                          s.focal_x, s.focal_y, text(s.centre, s.centre.norm()));

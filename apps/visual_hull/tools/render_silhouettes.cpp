@@ -161,12 +161,12 @@ void run(const Arguments& a) {
 
 int main(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app{"Silhouettes of a mesh from cameras around it, with a scene for visual_hull"};
+  CLI::App app{"Renders silhouettes of a mesh from cameras around it, with a scene for visual_hull"};
   app.add_option("MESH", arguments.mesh, "Any mesh that nef reads")->required();
   app.add_option("-o,--output", arguments.directory, "Directory for the images and the scene")->required();
   app.add_option("--views", arguments.views, "Number of cameras")->check(CLI::Range(1, 1000));
-  app.add_option("--width", arguments.width, "Of the images")->check(CLI::Range(8, 10000));
-  app.add_option("--height", arguments.height, "Of the images")->check(CLI::Range(8, 10000));
+  app.add_option("--width", arguments.width, "Width of the images")->check(CLI::Range(8, 10000));
+  app.add_option("--height", arguments.height, "Height of the images")->check(CLI::Range(8, 10000));
   app.add_option("--elevations", arguments.elevations, "Angles over the horizon in degrees, in turn");
   app.add_option("--up", arguments.up, "Vertical axis")->check(CLI::IsMember({"x", "y", "z"}));
   try {

@@ -15,10 +15,6 @@ namespace {
 
 namespace plan = nef::planner;
 
-py::tuple from_triple(const Integer3& triple) {
-  return py::make_tuple(to_int(triple[0]), to_int(triple[1]), to_int(triple[2]));
-}
-
 // (a, b, contact, squared, distance, on_a, on_b, items, overlap); the overlap is (region, box, volume, error, exact).
 py::tuple told(const plan::PairVerdict& pair) {
   py::object items = py::none();
@@ -26,47 +22,29 @@ py::tuple told(const plan::PairVerdict& pair) {
   py::object overlap = py::none();
   if (pair.interference) {
     const plan::Interference& found = *pair.interference;
-    overlap = py::make_tuple(
-        found.region, py::make_tuple(python::from_triple(found.box[0]), python::from_triple(found.box[1])),
-        found.volume.value, found.volume.error, found.exact_volume ? to_fraction(*found.exact_volume) : py::none());
+    overlap = py::make_tuple(found.region, py::make_tuple(from_triple(found.box[0]), from_triple(found.box[1])),
+                             found.volume.value, found.volume.error,
+                             found.exact_volume ? to_fraction(*found.exact_volume) : py::none());
   }
   return py::make_tuple(pair.a, pair.b, std::string(contact_name(pair.distance.contact)),
-                        to_fraction(pair.distance.squared), pair.distance.value(),
-                        python::from_triple(pair.distance.on_a), python::from_triple(pair.distance.on_b), items,
-                        overlap);
+                        to_fraction(pair.distance.squared), pair.distance.value(), from_triple(pair.distance.on_a),
+                        from_triple(pair.distance.on_b), items, overlap);
 }
 
 // (status, direction, dimension, rays, stops); a stop is (part, normals).
 py::tuple told(const plan::PartVerdict& part) {
   py::list rays;
   for (const Integer3& ray : part.first.rays) rays.append(from_triple(ray));
-  py::list stops;
-  for (const plan::FreeDirections::Stop& stop : part.first.stops) {
-    py::list normals;
-    for (const Integer3& n : stop.directions) normals.append(from_triple(n));
-    stops.append(py::make_tuple(stop.part, normals));
-  }
   return py::make_tuple(plan::status_name(part.status),
-                        part.direction ? py::object(python::from_triple(*part.direction)) : py::none(),
-                        part.first.dimension, rays, stops);
+                        part.direction ? py::object(from_triple(*part.direction)) : py::none(), part.first.dimension,
+                        rays, stops_of(part.first.stops));
 }
 
 // (pairs, parts)
-py::tuple verdict(const std::vector<Polyhedron>& parts, bool exact) {
-  plan::Assembly assembly;
-  for (const Polyhedron& part : parts) {
-    if (part.is_empty() || !part.is_bounded() || !part.is_regular()) {
-      throw InputError("part " + std::to_string(assembly.parts.size()) +
-                       " must be a bounded solid without surfaces, curves or points sticking out");
-    }
-    assembly.parts.push_back(part);
-    assembly.names.emplace_back();
-  }
-  if (parts.empty()) throw InputError("a verdict needs a part");
+py::tuple verdict(const std::vector<std::string>& names, const std::vector<Polyhedron>& parts, bool exact) {
+  const plan::Assembly assembly = assembly_of(names, parts);
   const plan::PartsVerdict found = call(items(parts), [assembly, exact](const Monitor& monitor) {
-    plan::Assembly closed = assembly;
-    for (Polyhedron& part : closed.parts) part = closure(part, monitor);
-    return plan::verdict(closed, {exact, monitor});
+    return plan::verdict(closed(assembly, monitor), {exact, monitor});
   });
   py::list pairs;
   for (const plan::PairVerdict& pair : found.pairs) pairs.append(told(pair));
@@ -174,8 +152,8 @@ py::tuple check_linkage(const std::shared_ptr<plan::LinkageChecker>& checker, co
                         const std::vector<double>& to) {
   const std::size_t dimension = checker->linkage().dimension();
   if (from.size() != dimension || to.size() != dimension) {
-    throw py::value_error("the linkage has " + std::to_string(dimension) + " joints with a value, not " +
-                          std::to_string(std::max(from.size(), to.size())));
+    throw InputError("the linkage has " + std::to_string(dimension) + " joints with a value, not " +
+                     std::to_string(std::max(from.size(), to.size())));
   }
   const plan::LinkageVerdict found =
       call(kSmallCall, [=](const Monitor&) { return from == to ? checker->check(from) : checker->check(from, to); });

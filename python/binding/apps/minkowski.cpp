@@ -15,6 +15,7 @@
 #include "apps/minkowski/morphology.h"
 
 #include "binding/base/bindings.h"
+#include "binding/base/signatures.h"
 #include "nef/distance/distance.h"
 #include "nef/polyhedron.h"
 
@@ -33,7 +34,7 @@ minkowski::UnionStrategy strategy_named(const std::string& name) {
   for (const auto& [known, strategy] : minkowski::kUnionStrategies) {
     if (name == known) return strategy;
   }
-  throw py::value_error("union must be 'auto', 'convolution' or 'queue'");
+  throw InputError("union must be 'auto', 'convolution' or 'queue'");
 }
 
 // The keys are those of the program's report.
@@ -95,7 +96,7 @@ auto binary(Binary operation) {
 minkowski::Side side_of(const std::string& name) {
   if (name == "inner") return minkowski::Side::kInner;
   if (name == "outer") return minkowski::Side::kOuter;
-  throw py::value_error("side must be 'inner' or 'outer'");
+  throw InputError("side must be 'inner' or 'outer'");
 }
 
 Polyhedron offset(const Polyhedron& a, py::handle radius, int detail, const std::string& side, unsigned threads,
@@ -115,17 +116,14 @@ py::object ball_error(py::handle radius, int detail, const std::string& side) {
   return to_fraction(minkowski::ball_approximation(to_rational(radius), detail, side_of(side)).error);
 }
 
-Polyhedron configuration_space(const Polyhedron& robot, const std::vector<Polyhedron>& obstacles, const py::object& box,
+Polyhedron configuration_space(const Polyhedron& robot, const py::iterable& obstacles, const py::object& box,
                                unsigned threads, const py::object& progress, const std::string& strategy,
                                const py::object& report) {
+  const std::vector<Polyhedron> around = sets_of(obstacles);
   std::optional<std::array<Rational3, 2>> bounds;
-  if (!box.is_none()) {
-    const py::sequence corners = box;
-    if (corners.size() != 2) throw py::value_error("a box needs two corners");
-    bounds = {to_triple(corners[0], "a corner"), to_triple(corners[1], "a corner")};
-  }
+  if (!box.is_none()) bounds = to_corners(box);
   return with_sums({threads, progress, strategy, report}, [=](const auto& options, auto* counts) {
-    return minkowski::configuration_space(robot, obstacles, bounds, options, counts);
+    return minkowski::configuration_space(robot, around, bounds, options, counts);
   });
 }
 
@@ -157,7 +155,7 @@ py::object reach(const Polyhedron& tool, const Polyhedron& part, const py::objec
 
 py::object millable(const Polyhedron& part, const Polyhedron& tool, std::optional<int> axes, unsigned threads,
                     const py::object& progress, const std::string& strategy, const py::object& report) {
-  if (axes && *axes != 3) throw py::value_error("axes must be 3, for a tool that comes from above, or None");
+  if (axes && *axes != 3) throw InputError("axes must be 3, for a tool that comes from above, or None");
   const auto approach = axes ? minkowski::Approach::kFromAbove : minkowski::Approach::kAnywhere;
   const minkowski::Millable found = with_sums(
       {threads, progress, strategy, report},
@@ -203,9 +201,9 @@ All of space if b is empty. threads, progress, union, report, errors: as for sum
   bind("opening", nef::minkowski::opening,
        R"(a eroded by b, plus b: the union of all translates of b that lie in a.
 
-threads, progress, union, report, errors: as for sum; progress begins anew with the second sum. Raises InputError if b is empty.)");
+threads, progress, union, report, errors: as for sum; progress begins again with the second sum. Raises InputError if b is empty.)");
   bind("closing", nef::minkowski::closing,
-       R"(a plus b, eroded by b: what no translate of -b reaches that misses a.
+       R"(a plus b, eroded by b: the points that no translate of -b reaches without meeting a.
 
 threads, progress, union, report, errors: as for opening.)");
   m.def("offset", &offset, py::arg("a"), py::arg("radius"), py::arg("detail") = 8, py::arg("side") = "outer",
@@ -225,13 +223,13 @@ Raises InputError unless the radius, a number, is positive.)");
         "A bound on how far the surfaces of ball(radius, detail, side) and of the round ball are apart: a Fraction.");
   m.def("sweep", &sweep, py::arg("a"), py::arg("path"), py::arg("threads") = 1, py::arg("progress") = py::none(),
         py::arg("union") = "auto", py::arg("report") = py::none(),
-        R"(What a set passes over as it moves along a polyline of at least one point, in the order of its points.
+        R"(The region that a set passes over as it moves along a polyline of at least one point.
 
-path: points in rows. threads, progress, union, report, errors: as for sum.)");
+path: points in rows, in order. threads, progress, union, report, errors: as for sum.)");
   m.def(
       "penetration", &penetration, py::arg("a"), py::arg("b"), py::arg("threads") = 1, py::arg("progress") = py::none(),
       py::arg("union") = "auto", py::arg("report") = py::none(),
-      R"(How two bounded sets stand to each other, and the shortest translation of b that makes them touch: nef.Penetration.
+      R"(Whether two bounded sets are disjoint, touch or overlap, and the shortest translation of b that makes them touch: nef.Penetration.
 
 The way out if they overlap, to contact if they are disjoint; closures and interiors decide. Exact. threads, progress, union, report: as for
 sum. Raises InputError if one is empty, UnsupportedError if one is unbounded.)");
@@ -255,9 +253,9 @@ for sum. Raises InputError if the tool is empty or the start is not free.)");
 It comes from outside along any path; axes=3: down the z axis, so what is above it must be free, too. Both sets must be
 bounded (UnsupportedError). threads, progress, union, report: as for sum. Raises InputError if the tool has no volume.)");
   m.def("component", &component, py::arg("a"), py::arg("point") = py::none(),
-        R"(The connected component of a set that holds a point, empty if the set does not hold it.
+        R"(The connected component of a set that contains a point; empty if the set does not contain it.
 
-Without a point: what reaches infinity. Connected means by paths within the set, passages of dimension 1 and 0 included.)");
+Without a point: the component that reaches infinity. Connected means by paths within the set, passages of dimension 1 and 0 included.)");
   m.def(
       "hull",
       [](const nef::Polyhedron& a) {
@@ -270,7 +268,7 @@ Without a point: what reaches infinity. Connected means by paths within the set,
         py::arg("union") = "auto", py::arg("report") = py::none(),
         R"(Where a translating robot may be: the closed set of positions of its reference point, the origin.
 
-robot: a Polyhedron; obstacles: a list of these, taken closed; box: two corners that bound the positions, or None. Contact
+robot: a Polyhedron; obstacles: an iterable of these, taken closed; box: two corners that bound the positions, or None. Contact
 is free, so passages as narrow as the robot remain, as facets, edges and vertices.)");
   m.def("decompose", &decompose, py::arg("a"),
         R"(Convex sets whose union is exactly a bounded set: its vertical decomposition.
@@ -288,6 +286,7 @@ Those of dimension 3 come first; their interiors are disjoint. Raises Unsupporte
         return call(items(a), [a](const nef::Monitor& monitor) { return nef::minkowski::negate(a, monitor); });
       },
       py::arg("a"), "The set of all -x with x in a.");
+  give_signatures(m);
 }
 
 }  // namespace

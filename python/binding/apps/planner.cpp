@@ -4,7 +4,7 @@
 // classes in Python; so scenes, problems and proofs are bound here with as little as that package needs.
 #include <pybind11/stl.h>
 
-#include "apps/planner/clearance/widest.h"
+#include "apps/planner/clearance/widest_robot.h"
 #include "apps/planner/path/question.h"
 #include "apps/planner/rigid/certified_path.h"
 #include "apps/planner/rigid/pose_file.h"
@@ -47,11 +47,7 @@ plan::Scene scene_of(const Polyhedron& robot, const std::vector<Polyhedron>& obs
   scene.obstacle_names = names;
   scene.contact = contact ? plan::ContactRule::kAllow : plan::ContactRule::kForbid;
   if (!rotation.is_none()) scene.rotation = rotation_of(rotation);
-  if (!box.is_none()) {
-    const py::sequence corners = box;
-    if (corners.size() != 2) throw py::value_error("a box needs two corners");
-    scene.box = {to_triple(corners[0], "a corner"), to_triple(corners[1], "a corner")};
-  }
+  if (!box.is_none()) scene.box = to_corners(box);
   return scene;
 }
 
@@ -158,6 +154,19 @@ plan::Scene kept_clear(const plan::Scene& scene, py::handle distance) {
   });
 }
 
+// (low, high, undecided, the robot of the size low) for a scene with its ends.
+py::tuple widest(const plan::Scene& scene, bool box, py::handle precision, std::size_t max_cells,
+                 const py::object& seconds) {
+  const plan::WidestLimits limits{to_rational(precision), max_cells, time_of(seconds)};
+  const auto growth = box ? plan::Growth::kBox : plan::Growth::kScale;
+  const auto found = call(kSmallCall, [scene = scene, growth, limits](const Monitor& monitor) mutable {
+    plan::Widest interval = plan::widest_robot(scene, growth, limits, monitor);
+    return std::pair(std::move(interval), scene.robot);
+  });
+  const auto bound = [](const std::optional<Rational>& size) { return size ? to_fraction(*size) : py::none(); };
+  return py::make_tuple(bound(found.first.low), bound(found.first.high), found.first.undecided, found.second);
+}
+
 py::tuple told(const plan::RigidPose& pose) {
   py::list quaternion;
   for (const Rational& x : pose.quaternion) quaternion.append(to_fraction(x));
@@ -185,14 +194,14 @@ py::tuple certify(const plan::Scene& scene, const py::sequence& path) {
   std::vector<plan::RigidPose> poses;
   for (const py::handle item : path) {
     const auto pair = item.cast<py::sequence>();
-    if (pair.size() != 2) throw py::value_error("a pose is a position and a quaternion");
+    if (pair.size() != 2) throw InputError("a pose is a position and a quaternion");
     const py::sequence quaternion = pair[1];
-    if (quaternion.size() != 4) throw py::value_error("a quaternion has four numbers: w, x, y, z");
+    if (quaternion.size() != 4) throw InputError("a quaternion has four numbers: w, x, y, z");
     plan::RigidPose& pose = poses.emplace_back();
     pose.position = to_triple(pair[0], "a position");
     for (std::size_t k = 0; k < 4; ++k) pose.quaternion[k] = to_rational(quaternion[k]);
   }
-  if (poses.empty()) throw py::value_error("a path needs a pose");
+  if (poses.empty()) throw InputError("a path needs a pose");
   const plan::CertifiedPath found = call(kSmallCall, [scene, poses](const Monitor& monitor) {
     const auto checker = plan::MotionChecker::of_scene(plan::with_robot_as_in_its_file(scene, monitor), monitor);
     return plan::certify(checker, poses);
@@ -251,7 +260,7 @@ class Space {
 
   py::dict check(py::handle points) const {
     const std::vector<Rational3> path = to_points(points, "way-points");
-    if (path.empty()) throw py::value_error("a path needs a point");
+    if (path.empty()) throw InputError("a path needs a point");
     const auto problem = problem_;
     return told(call(kSmallCall, [=](const Monitor& monitor) { return problem->check(path, monitor); }));
   }
@@ -343,6 +352,7 @@ void define_module(py::module_& m) {
       .def_property_readonly("rotation", [](const plan::Scene& s) { return told(s.rotation); })
       .def("with_ends", &with_ends)
       .def("kept_clear", &kept_clear)
+      .def("widest", &widest)
       .def("invalid_end", &invalid_end)
       .def("certify", &certify)
       .def_property_readonly("start", [](const plan::Scene& s) { return optional_triple(s.start); })
@@ -375,4 +385,5 @@ void define_module(py::module_& m) {
 PYBIND11_MODULE(_planner, m) {
   nef::python::define_module(m);
   nef::python::bind_mechanisms(m);
+  nef::python::bind_assemblies(m);
 }

@@ -15,10 +15,13 @@
 #include "apps/visual_hull/calibrate/board_sheet.h"
 #include "apps/visual_hull/calibrate/calibrate.h"
 #include "apps/visual_hull/formats/read_scene.h"
+#include "apps/visual_hull/formats/turntable.h"
 #include "apps/visual_hull/formats/write_scene.h"
 #include "apps/visual_hull/masks/cut_out.h"
+#include "apps/visual_hull/scene/axes.h"
 #include "apps/visual_hull/scene/images.h"
 #include "binding/base/bindings.h"
+#include "nef/base/in_quotes.h"
 #include "nef/io/file_bytes.h"
 
 namespace nef::python {
@@ -27,10 +30,10 @@ namespace {
 visual_hull::Matrix34 matrix_of(py::handle rows) {
   visual_hull::Matrix34 result;
   const py::sequence given = py::reinterpret_borrow<py::sequence>(rows);
-  if (py::len(given) != 3) throw py::value_error("a camera is a matrix of shape (3, 4)");
+  if (py::len(given) != 3) throw InputError("a camera is a matrix of shape (3, 4)");
   for (std::size_t i = 0; i < 3; ++i) {
     const py::sequence row = given[i];
-    if (row.size() != 4) throw py::value_error("a camera is a matrix of shape (3, 4)");
+    if (row.size() != 4) throw InputError("a camera is a matrix of shape (3, 4)");
     for (std::size_t j = 0; j < 4; ++j) result[i][j] = to_rational(row[j]);
   }
   return result;
@@ -40,7 +43,7 @@ using Mask = py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast
 
 // White where the mask is not 0.
 void write_mask(const Mask& mask, const std::string& path) {
-  if (mask.ndim() != 2) throw py::value_error("a mask is an array of shape (H, W)");
+  if (mask.ndim() != 2) throw InputError("a mask is an array of shape (H, W)");
   view::Image image;
   image.height = static_cast<std::uint32_t>(mask.shape(0));
   image.width = static_cast<std::uint32_t>(mask.shape(1));
@@ -52,9 +55,15 @@ void write_mask(const Mask& mask, const std::string& path) {
 }
 
 visual_hull::WorldBox box_of(const py::object& box) {
-  const py::sequence corners = box;
-  if (corners.size() != 2) throw py::value_error("a box needs two corners");
-  return {to_triple(corners[0], "a corner"), to_triple(corners[1], "a corner")};
+  const std::array<Rational3, 2> corners = to_corners(box);
+  return {corners[0], corners[1]};
+}
+
+visual_hull::Way way_named(const std::string& name) {
+  if (name == "best") return visual_hull::Way::kBest;
+  if (name == "direct") return visual_hull::Way::kDirect;
+  if (name == "cones") return visual_hull::Way::kCones;
+  throw InputError("way must be 'best', 'direct' or 'cones', not " + in_quotes(name));
 }
 
 // Of the keywords that nef/visual_hull.py lists; each is there.
@@ -67,8 +76,24 @@ visual_hull::Options options_of(const py::dict& given) {
   if (flag("half_pixels")) options.origin = visual_hull::PixelOrigin::kCorner;
   if (!given["box"].is_none()) options.box = box_of(given["box"]);
   if (!given["images"].is_none()) options.images = given["images"].cast<std::string>();
-  if (!given["mask"].is_none()) options.mask = visual_hull::parse_mask_method(given["mask"].cast<std::string>());
+  if (!given["threshold"].is_none()) {
+    options.silhouette.threshold = visual_hull::parse_threshold(py::str(given["threshold"]).cast<std::string>());
+  }
+  options.silhouette.threshold.invert = flag("invert");
+  if (!given["channel"].is_none()) {
+    options.silhouette.threshold.channel = visual_hull::parse_channel(given["channel"].cast<std::string>());
+  }
+  if (!given["mask"].is_none()) {
+    if (!given["threshold"].is_none() || !given["channel"].is_none() || flag("invert")) {
+      throw InputError("mask excludes threshold, channel and invert, which are for images that are masks");
+    }
+    options.mask = visual_hull::parse_mask_method(given["mask"].cast<std::string>());
+  }
   if (!given["at_least"].is_none()) options.at_least = given["at_least"].cast<std::size_t>();
+  options.way = way_named(given["way"].cast<std::string>());
+  if (options.at_least && options.way == visual_hull::Way::kDirect) {
+    throw InputError("at_least excludes way='direct': it overlays cones");
+  }
   options.repair_masks = flag("repair_masks");
   options.refine = flag("refine");
   options.suspects = flag("suspects");
@@ -167,22 +192,35 @@ py::dict compute(const visual_hull::Scene& scene, const std::string& folder, con
 // (K, coefficients)
 visual_hull::Distortion distortion_of(py::handle lens) {
   const py::sequence parts = py::reinterpret_borrow<py::sequence>(lens);
-  if (parts.size() != 2) throw py::value_error("a lens is a matrix K of shape (3, 3) and its coefficients");
+  if (parts.size() != 2) throw InputError("a lens is a matrix K of shape (3, 3) and its coefficients");
   visual_hull::Distortion result;
   const py::sequence rows = parts[0];
-  if (rows.size() != 3) throw py::value_error("K is a matrix of shape (3, 3)");
+  if (rows.size() != 3) throw InputError("K is a matrix of shape (3, 3)");
   for (std::size_t i = 0; i < 3; ++i) result.intrinsics[i] = to_triple(rows[i], "a row of K");
   result.coefficients = parts[1].cast<std::vector<double>>();
   constexpr std::array<std::size_t, 5> kCounts{4, 5, 8, 12, 14};
   if (std::find(kCounts.begin(), kCounts.end(), result.coefficients.size()) == kCounts.end()) {
-    throw py::value_error("a lens has 4, 5, 8, 12 or 14 coefficients, as OpenCV has them");
+    throw InputError("a lens has 4, 5, 8, 12 or 14 coefficients, as OpenCV has them");
   }
   return result;
 }
 
-py::dict from_file(const std::string& path, const visual_hull::Options& options, const py::object& progress) {
+// The turntable is (images of a turn, intrinsics, radius, height), the last three None if its camera is not known.
+visual_hull::Scene turntable_of(const py::tuple& given) {
+  const int count = given[0].cast<int>();
+  if (given[1].is_none() && given[2].is_none()) return visual_hull::guess_turntable(std::abs(count));
+  if (given[1].is_none() || given[2].is_none()) throw InputError("a turntable needs intrinsics and radius, or neither");
+  return visual_hull::make_turntable(
+      {count, given[1].cast<std::vector<double>>(), given[2].cast<double>(), given[3].cast<double>()});
+}
+
+py::dict from_file(const std::string& path, const visual_hull::Options& options, const std::string& matrices,
+                   const std::string& up, const py::object& turntable, const py::object& progress) {
   const std::filesystem::path file(path);
-  return compute(visual_hull::read_scene(file), visual_hull::scene_folder(file).string(), options, progress);
+  visual_hull::Scene scene =
+      turntable.is_none() ? visual_hull::read_scene(file, {matrices}) : turntable_of(py::tuple(turntable));
+  if (!up.empty()) visual_hull::turn_up(scene, up);
+  return compute(scene, visual_hull::scene_folder(file).string(), options, progress);
 }
 
 py::dict from_views(const std::vector<std::string>& names, const std::vector<std::string>& images,
@@ -200,7 +238,7 @@ py::dict from_views(const std::vector<std::string>& names, const std::vector<std
 }
 
 cv::Mat mask_of(const Mask& mask) {
-  if (mask.ndim() != 2 || mask.size() == 0) throw py::value_error("a mask is an array of shape (H, W)");
+  if (mask.ndim() != 2 || mask.size() == 0) throw InputError("a mask is an array of shape (H, W)");
   cv::Mat result(static_cast<int>(mask.shape(0)), static_cast<int>(mask.shape(1)), CV_8UC1);
   std::copy(mask.data(), mask.data() + mask.size(), result.begin<std::uint8_t>());
   return result;
@@ -214,7 +252,7 @@ py::dict refine(const std::vector<std::string>& names, const std::vector<Mask>& 
   for (std::size_t i = 0; i < masks.size(); ++i) {
     images.push_back(mask_of(masks[i]));
     if (matrices.is_none()) {
-      if (images[i].size() != images[0].size()) throw py::value_error("masks of a turntable have one shape");
+      if (images[i].size() != images[0].size()) throw InputError("masks of a turntable have one shape");
       cameras.emplace_back();
     } else {
       cameras.emplace_back(names[i], matrix_of(py::list(matrices)[i]));

@@ -19,6 +19,9 @@ inline std::size_t items(const std::vector<Polyhedron>& sets) {
   return sum;
 }
 
+/// The sets of a list, a generator or any other iterable. Throws TypeError for what is not a Polyhedron.
+std::vector<Polyhedron> sets_of(const py::iterable& sets);
+
 /// A named tuple of the module nef.results.
 inline py::object result_of(const char* type, const py::args& values) {
   return py::module_::import("nef.results").attr(type)(*values);

@@ -21,8 +21,12 @@ class MeshError : public InputError {
   std::vector<MeshProblem> problems_;
 };
 
-/// Gives each note as a UserWarning of Python, at the line of the caller.
-void warn(const Messages& messages);
+/// Gives each note as a nef.InputWarning, at the line that called the function of the extension module, or, for
+/// functions that the package itself calls, `level` - 1 frames above it.
+void warn(const Messages& messages, int level = 1);
+
+/// A message of the library in the words of Python: options of programs become arguments, "--at-least" is "at_least".
+std::string in_words_of_python(std::string text);
 
 /// Makes the exceptions of nef.errors out of those of the suite, for all extension modules. Called once.
 void register_errors();

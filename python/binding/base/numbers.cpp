@@ -106,7 +106,7 @@ Rational3 to_triple(py::handle triple, const char* what) {
   }
   if (!PySequence_Check(triple.ptr()) || PyUnicode_Check(triple.ptr()) || PySequence_Size(triple.ptr()) != 3) {
     PyErr_Clear();
-    throw py::value_error(std::string(what) + " needs three numbers");
+    throw InputError(std::string(what) + " needs three numbers");
   }
   for (std::size_t i = 0; i < 3; ++i) {
     result[i] = to_rational(steal_or_throw(PySequence_GetItem(triple.ptr(), static_cast<Py_ssize_t>(i))));
@@ -118,11 +118,19 @@ py::tuple from_triple(const Rational3& triple) {
   return py::make_tuple(to_fraction(triple[0]), to_fraction(triple[1]), to_fraction(triple[2]));
 }
 
+std::array<Rational3, 2> to_corners(py::handle box) {
+  std::vector<Rational3> corners;
+  for (const py::handle corner : py::reinterpret_borrow<py::object>(box))
+    corners.push_back(to_triple(corner, "a corner"));
+  if (corners.size() != 2) throw InputError("a box needs two corners, not " + std::to_string(corners.size()));
+  return {corners[0], corners[1]};
+}
+
 void require_rows_of_three(const py::array& array, const char* what) {
   if (array.ndim() == 2 && array.shape(1) == 3) return;
   std::string shape;
   for (py::ssize_t i = 0; i < array.ndim(); ++i) shape += (i > 0 ? ", " : "") + std::to_string(array.shape(i));
-  throw py::value_error(std::string(what) + " must be an array of shape (N, 3), not (" + shape + ")");
+  throw InputError(std::string(what) + " must be an array of shape (N, 3), not (" + shape + ")");
 }
 
 std::optional<DoubleArray> as_doubles(py::handle points) {

@@ -33,6 +33,9 @@ Rational3 to_triple(py::handle triple, const char* what);
 /// A tuple of three Fractions.
 py::tuple from_triple(const Rational3& triple);
 
+/// Two corners of a box, which are three numbers each. Throws InputError for anything else.
+std::array<Rational3, 2> to_corners(py::handle box);
+
 /// Points in a row: an array of shape (N, 3) of floats, of integers or of objects, or a sequence of triples.
 std::vector<Rational3> to_points(py::handle points, const char* what);
 
@@ -40,7 +43,7 @@ std::vector<Rational3> to_points(py::handle points, const char* what);
 using DoubleArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
 std::optional<DoubleArray> as_doubles(py::handle points);
 
-/// Throws ValueError unless the array has the shape (N, 3).
+/// Throws InputError unless the array has the shape (N, 3).
 void require_rows_of_three(const py::array& array, const char* what);
 
 /// An array of shape (N, 3) of the nearest doubles; or of Fractions.

@@ -347,7 +347,7 @@ TEST_CASE("planner --assembly: reports, exit codes, pages") {
   const Run rings = planner(folder, "--assembly " + data + "rings.json");
   CHECK(rings.code == 1);
   CHECK(rings.out ==
-        "inseparable\ninseparable: ring 1, ring 2; nothing of it can leave (all subassemblies)\n"
+        "inseparable\ninseparable: ring 1, ring 2; no subset of them can leave (all subassemblies)\n"
         "  ring 1 is blocked by ring 2\n  ring 2 is blocked by ring 1\n");
   const std::string overlap =
       folder.write("o.json", R"J({"parts": {"a": "box(0,0,0,2,2,2)", "b": "box(1,1,1,3,3,3)"}})J");

@@ -167,7 +167,7 @@ TEST_CASE("widest robots and time stamps on the command line") {
 
   const Run clear = planner(folder, scene + " --keep-clear 1/4 --speed 2 --acceleration 4 -o " + folder.file("p.csv"));
   CHECK(clear.code == 0);
-  CHECK_THAT(clear.err, Catch::Contains("keep at least that distance"));
+  CHECK_THAT(clear.err, Catch::Contains("keep at least this distance"));
   CHECK_THAT(text_of(folder.file("p.csv")), Catch::StartsWith("t,x,y,z\n0,0,0,0\n"));
   CHECK(planner(folder, scene + " --keep-clear 0.3").code == 1);
   const auto timed = report(scene + " --speed 3");

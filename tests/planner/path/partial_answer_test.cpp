@@ -80,7 +80,7 @@ TEST_CASE("the command says that tight passages were not looked for, and lists t
   CHECK(report["status"] == "path");
   CHECK(report["tight"].is_null());
   CHECK(report["components"].is_null());
-  CHECK_THAT(report["messages"][0].get<std::string>(), Catch::Contains("tight passages were not looked for"));
+  CHECK_THAT(report["messages"][0].get<std::string>(), Catch::Contains("tight passages were not searched"));
   const nlohmann::json all = nlohmann::json::parse(planner(folder, scene + " --json --tight").out);
   CHECK(all["tight"].is_array());
   CHECK(all["messages"].empty());

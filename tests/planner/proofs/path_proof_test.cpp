@@ -133,9 +133,9 @@ TEST_CASE("A proof about one scene is none about another", "[proofs]") {
   const PathProof proof = *proof_of(scene, poses);
   CHECK(complaint(proof, scene, poses) == std::nullopt);
   CHECK(*complaint(proof, scene_with(kRobots[0], kObstacles[0], R"(, "contact": "forbid")"), poses) ==
-        "the scene has another rule of contact");
+        "the scene has a different contact rule");
   CHECK(*complaint(proof, scene_with(kRobots[0], kObstacles[0], R"(, "box": [[-9,-9,-9],[9,9,9]])"), poses) ==
-        "the scene has another box");
+        "the scene has a different box");
   CHECK(*complaint(proof, scene_with("box(-1,-1/4,-1/2, 1,1/4,1/3)", kObstacles[0], ""), poses) ==
         "the solid pieces of the robot are not those of the scene");
   CHECK(*complaint(proof, scene_with(kRobots[0], kObstacles[0] + " + segment(0,8,0, 1,8,0)", ""), poses) ==

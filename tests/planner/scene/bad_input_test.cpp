@@ -166,7 +166,7 @@ TEST_CASE("bad usage") {
            {good + "--path " + words, "words.txt:1: 'hello' in 'hello world' is not a number"},
            {good + "--path " + two, "two.txt:1: expected x y z, or x y z qx qy qz qw, not 2 numbers"},
            {good + "--path " + empty, "the file is empty"},
-           {good + "--path " + object, "holds no 'path'"},
+           {good + "--path " + object, "has no list 'path'"},
            {good + "--page view.png", "must be .html"},
            {good + "-o /no/such/folder/path.json", "cannot be written"},
            {good + "-o /no/such/folder/view.glb", "cannot be written"},

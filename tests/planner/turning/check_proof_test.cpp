@@ -35,11 +35,11 @@ TEST_CASE("proofs hold when they are checked by other means, and spoilt ones do 
                p.breakpoints = {0, 1};
                p.cells = {p.cells[last]};
              }),
-             Contains("does not hold its inner robot"));
+             Contains("does not contain its inner robot"));
   CHECK_THAT(complaint([&](TurningProof& p) {
                for (Rational3& v : p.cells[last].inner[0]) v = scaled_by(ratio(1001, 1000), v);
              }),
-             Contains("does not hold its inner robot"));
+             Contains("does not contain its inner robot"));
   CHECK_THAT(complaint([](TurningProof& p) {
                p.breakpoints = {0, 1};
                p.cells = {TurningProof::Cell{{}, p.cells[0].start_side}};

@@ -88,7 +88,7 @@ TEST_CASE("Cameras of a turntable come within .1 degrees of the truth, by the bo
   // Whichever way it turns, a board of one tilt does not show where the axis of the lens is.
   CHECK(found.lens.centred);
   REQUIRE(found.notes.size() == 1);
-  CHECK_THAT(found.notes[0], Contains("the middle is taken") && Contains("--lens"));
+  CHECK_THAT(found.notes[0], Contains("its middle is assumed") && Contains("--lens"));
   const Scene scene = found.scene();
   REQUIRE(scene.views.size() == 8);
   CHECK(scene.views[3].name == "view3.png");

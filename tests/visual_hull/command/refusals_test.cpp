@@ -38,7 +38,7 @@ TEST_CASE("Numbers beyond all measure are refused at once, with their place and 
   CHECK_THAT(refusal_of_file(s.write("a.vsh", room + "1e309\n")),
              Contains("a.vsh:4: '1e309' (centre of camera 1) is too large") && Contains("larger unit of length"));
   CHECK_THAT(refusal_of_file(s.write("b.vsh", "-1e309 -1 -1\n1 1 1\n")),
-             Contains("b.vsh:1: a word (room's smallest corner)"));
+             Contains("b.vsh:1: a word (smallest corner of the box)"));
   CHECK_THAT(refusal_of_file(s.write("c.vsh", room + "x\n")),
              Contains("c.vsh:4: 'x' is not a number (centre of camera 1)"));
   CHECK_THAT(refusal_of_file(s.write("d.vsh", room)), Contains("d.vsh:4: the file ends before the centre of camera 1"));

@@ -314,7 +314,7 @@ TEST_CASE("A frame that cuts silhouettes is told, with the remedy") {
   }
   CHECK_FALSE(cut_note(result));
   result.views[1].silhouette.cut_by_frame = true;
-  CHECK_THAT(cut_note(result).value(), StartsWith("the frame cuts the silhouette of view b,"));
+  CHECK_THAT(cut_note(result).value(), StartsWith("the image frame cuts the silhouette of view b;"));
   for (ViewResult& view : result.views) view.silhouette.cut_by_frame = true;
   CHECK_THAT(cut_note(result).value(),
              Contains("silhouettes of views a, b, c and 2 more") && Contains("--border unknown"));

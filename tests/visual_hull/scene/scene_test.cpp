@@ -184,14 +184,14 @@ TEST_CASE("Malformed scenes are refused in one line that says where") {
   CHECK_THAT(understood(noted), EndsWith("; ignored: 'bocks', 'fov'"));
   CHECK_THAT(refusal_of_scene(s, "white.txt", " \n\t\n"), Contains("the file is empty"));
   CHECK_THROWS_WITH(read_scene(s.write("m.json", camera + "}]}"), {"world_mat_*"}),
-                    Contains("--matrices") && Contains("is no OpenCV FileStorage and no MATLAB file"));
+                    Contains("--matrices") && Contains("is neither an OpenCV FileStorage nor a MATLAB file"));
   CHECK_THAT(refusal_of_scene(s, "b.json", R"({"cameras": [{"P": [1,0,0,0,0,1,0,0,0,0,1,0]}], "box": [0,0,0,1,1,0]})"),
              Contains("flat along z"));
-  CHECK_THAT(refusal_of_scene(s, "a.vsh", "0 0 0 1 1"), Contains("ends before the room's largest corner"));
+  CHECK_THAT(refusal_of_scene(s, "a.vsh", "0 0 0 1 1"), Contains("ends before the largest corner of the box"));
   CHECK_THAT(refusal_of_scene(s, "b.vsh", "0 0 0 1 1 1 1 5 5 5 1 4 0 0 0 1 0 0 1 1 0 0 1 1"),
              Contains("point 4 of polygon 1 is not in the plane"));
   CHECK_THAT(refusal_of_scene(s, "c.vsh", "0 0 0 1 1 1 1 5 5 0 1 3 0 0 0 1 0 0 1 1 0"),
-             Contains("holds the camera's centre"));
+             Contains("contains the camera's centre"));
   CHECK_THAT(refusal_of_scene(s, "d.vsh", "0 0 0 1 1 1 1 5 5 5 1 2 0 0 0 1 0 0"),
              Contains("'2' is not a number of points"));
   CHECK_THAT(refusal_of_scene(s, "f.vsh", "0 0 0 1 1 1 1 5 5 5 1 3 0 0 0 1 0 0 1 1 0 7"),

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The part of the extension module nef._planner that nef.assemblies is made of: disassembly and free directions. It
+// gives tuples, which Python makes into the public classes.
+#include <pybind11/stl.h>
+
+#include "apps/planner/assembly/disassembly.h"
+#include "apps/planner/assembly/free_directions.h"
+#include "binding/apps/planner.h"
+#include "binding/base/bindings.h"
+#include "nef/base/in_quotes.h"
+#include "nef/base/timing/time_limit.h"
+
+namespace nef::python {
+
+namespace plan = nef::planner;
+
+plan::Assembly assembly_of(const std::vector<std::string>& names, const std::vector<Polyhedron>& parts) {
+  plan::Assembly assembly;
+  assembly.names = names;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const Polyhedron& part = parts[i];
+    if (part.is_empty() || !part.is_bounded() || !part.is_regular()) {
+      throw InputError("part " + in_quotes(names[i]) +
+                       " must be a bounded solid without surfaces, curves or points sticking out");
+    }
+    assembly.parts.push_back(part);
+  }
+  if (parts.empty()) throw InputError("parts must not be empty");
+  return assembly;
+}
+
+plan::Assembly closed(plan::Assembly assembly, const Monitor& monitor) {
+  for (Polyhedron& part : assembly.parts) part = closure(part, monitor);
+  return assembly;
+}
+
+py::tuple from_triple(const Integer3& triple) {
+  return py::make_tuple(to_int(triple[0]), to_int(triple[1]), to_int(triple[2]));
+}
+
+py::list stops_of(const std::vector<plan::FreeDirections::Stop>& stops) {
+  py::list result;
+  for (const plan::FreeDirections::Stop& stop : stops) {
+    py::list normals;
+    for (const Integer3& n : stop.directions) normals.append(from_triple(n));
+    result.append(py::make_tuple(stop.part, normals));
+  }
+  return result;
+}
+
+namespace {
+
+// (steps, inseparable, undecided, overlap); a step is (parts, stay, path, straight, unrounded), what is inseparable
+// (parts, nothing_moves, blocked_by), what is undecided (parts, proved_below).
+py::tuple take_apart(const std::vector<std::string>& names, const std::vector<Polyhedron>& parts,
+                     const std::optional<unsigned>& digits, const std::optional<double>& seconds) {
+  const plan::Assembly assembly = assembly_of(names, parts);
+  const plan::Disassembly found = call(kSmallCall, [assembly, digits, seconds](const Monitor& monitor) {
+    const TimeLimit limit(seconds, monitor);
+    plan::Disassembly answer = plan::take_apart(closed(assembly, monitor), digits, limit.monitor());
+    monitor.check_interruption();
+    return answer;
+  });
+  py::list steps;
+  for (const plan::DisassemblyStep& step : found.steps) {
+    py::list path;
+    for (const Rational3& point : step.path) path.append(from_triple(point));
+    steps.append(py::make_tuple(step.parts, step.stay, path, step.straight, step.unrounded));
+  }
+  py::list inseparable;
+  for (const plan::Inseparable& stuck : found.inseparable) {
+    inseparable.append(py::make_tuple(stuck.parts, stuck.nothing_moves, stuck.blocked_by));
+  }
+  py::list undecided;
+  for (const plan::Undecided& open : found.undecided) undecided.append(py::make_tuple(open.parts, open.proved_below));
+  return py::make_tuple(steps, inseparable, undecided, found.overlap);
+}
+
+// (cone, dimension, everything, rays, stops)
+py::tuple free_directions(const std::vector<std::string>& names, const std::vector<Polyhedron>& parts,
+                          std::size_t part) {
+  const plan::Assembly assembly = assembly_of(names, parts);
+  const plan::FreeDirections free = call(items(parts), [assembly, part](const Monitor& monitor) {
+    plan::Blocking blocking(closed(assembly, monitor).parts, monitor);
+    if (const auto overlap = blocking.overlapping()) {
+      throw InputError("parts " + in_quotes(assembly.names[overlap->first]) + " and " +
+                       in_quotes(assembly.names[overlap->second]) + " overlap");
+    }
+    return plan::free_directions(blocking, part, monitor);
+  });
+  py::list rays;
+  for (const Integer3& ray : free.rays) rays.append(from_triple(ray));
+  return py::make_tuple(free.cone, free.dimension, free.everything, rays, stops_of(free.stops));
+}
+
+}  // namespace
+
+void bind_assemblies(py::module_& m) {
+  m.def("take_apart", &take_apart);
+  m.def("free_directions", &free_directions);
+}
+
+}  // namespace nef::python

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Assemblies that are taken apart by translations. nef.planner has all of it."""
+import os
+import warnings
+from fractions import Fraction
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
+
+from . import _planner
+from ._nef import Polyhedron
+from .errors import InputError, InputWarning
+
+Exact3 = Tuple[Fraction, Fraction, Fraction]
+Integer3 = Tuple[int, int, int]
+Parts = Union[Dict[str, Polyhedron], str, "os.PathLike[str]"]
+
+
+class DisassemblyStep(NamedTuple):
+    """Parts that leave the others as one."""
+
+    #: their names
+    parts: List[str]
+    #: names of the parts that stay
+    stay: List[str]
+    #: way-points relative to the place in the assembly, three Fractions each
+    path: List[Exact3]
+    #: one motion, which may continue forever
+    straight: bool
+    #: numbers of way-points with more decimals than `digits`
+    unrounded: List[int]
+
+
+class Inseparable(NamedTuple):
+    """Parts of which no subset can leave the others."""
+
+    #: their names
+    parts: List[str]
+    #: whether no subset can even begin to move
+    nothing_moves: bool
+    #: {name: names of the parts that block it in some direction}
+    blocked_by: Dict[str, List[str]]
+
+
+class Undecided(NamedTuple):
+    """Parts for which the time ran out."""
+
+    #: their names
+    parts: List[str]
+    #: no subset of fewer parts than this can leave the others
+    proved_below: int
+
+
+class Disassembly(NamedTuple):
+    """How an assembly comes apart, or why it does not."""
+
+    #: 'sequence', 'inseparable', 'undecided' or 'overlap'
+    status: str
+    #: a list of DisassemblyStep, in order
+    steps: List[DisassemblyStep]
+    inseparable: List[Inseparable]
+    undecided: List[Undecided]
+    #: the names of two parts that overlap; None if no parts do
+    overlap: Optional[Tuple[str, str]]
+
+
+class FreeDirections(NamedTuple):
+    """The directions in which a part can begin to move while all others rest."""
+
+    #: the part of the closed cone in the cube from -1 to 1, a Polyhedron
+    cone: Polyhedron
+    #: 3, 2, 1, or 0 if the part cannot move
+    dimension: int
+    #: whether the part can move in every direction
+    everything: bool
+    #: along the edges of the cone
+    rays: List[Integer3]
+    #: (name, normals) for a part that forbids the directions d with normal * d < 0 for all normals
+    stops: List[Tuple[str, List[Integer3]]]
+
+
+def parts_of(parts: Parts) -> Tuple[List[str], List[Polyhedron]]:
+    """Names and sets of parts, which may be an assembly's file. Changes to the input of a file are warnings."""
+    if isinstance(parts, dict):
+        return [str(name) for name in parts], list(parts.values())
+    names, sets, messages = _planner.read_parts(os.fspath(parts))
+    for message in messages:
+        warnings.warn(message, InputWarning, stacklevel=3)
+    return names, sets
+
+
+def disassemble(parts: Parts, *, digits: Optional[int] = None, seconds: Optional[float] = None) -> Disassembly:
+    """Takes an assembly apart by translations, or proves that it is stuck, as `planner --assembly`.
+
+    - parts: {name: Polyhedron} of bounded solids, or an assembly's file
+    - digits: round way-points to this many decimals where the motions stay free
+    - seconds: time limit, after which the status is 'undecided'
+
+        >>> import nef
+        >>> from nef import planner
+        >>> block = nef.box((0, 0, 0), (3, 3, 3)) - nef.box((1, 1, 1), (2, 2, 3)).interior()
+        >>> answer = planner.disassemble({"block": block, "peg": nef.box((1, 1, 1), (2, 2, 4))})
+        >>> answer.status, len(answer.steps)
+        ('sequence', 1)
+    """
+    if digits is not None and not 0 <= digits <= 300:
+        raise InputError(f"digits must be from 0 to 300, not {digits}")
+    names, sets = parts_of(parts)
+    steps, inseparable, undecided, overlap = _planner.take_apart(names, sets, digits, seconds)
+
+    def named(numbers):
+        return [names[i] for i in numbers]
+
+    stuck = []
+    for numbers, nothing_moves, pairs in inseparable:
+        blocked_by: Dict[str, List[str]] = {}
+        for a, b in pairs:
+            blocked_by.setdefault(names[a], []).append(names[b])
+        stuck.append(Inseparable(named(numbers), nothing_moves, blocked_by))
+    status = "overlap" if overlap else "inseparable" if stuck else "undecided" if undecided else "sequence"
+    return Disassembly(status,
+                       [DisassemblyStep(named(moving), named(stay), *rest) for moving, stay, *rest in steps], stuck,
+                       [Undecided(named(numbers), below) for numbers, below in undecided],
+                       None if overlap is None else (names[overlap[0]], names[overlap[1]]))
+
+
+def free_directions(parts: Parts, part: str) -> FreeDirections:
+    """The exact cone of directions in which a part of an assembly can begin to move: FreeDirections.
+
+    - parts: {name: Polyhedron} of bounded solids, or an assembly's file; they must not overlap
+    - part: a name
+
+        >>> import nef
+        >>> from nef import planner
+        >>> floor, brick = nef.box((0, 0, 0), (9, 9, 1)), nef.box((3, 3, 1), (4, 4, 2))
+        >>> planner.free_directions({"floor": floor, "brick": brick}, "brick").dimension
+        3
+    """
+    names, sets = parts_of(parts)
+    if part not in names:
+        raise InputError(f"part {part!r} is not one of {', '.join(names)}")
+    cone, dimension, everything, rays, stops = _planner.free_directions(names, sets, names.index(part))
+    return FreeDirections(cone, dimension, everything, rays, [(names[other], normals) for other, normals in stops])

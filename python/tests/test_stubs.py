@@ -91,3 +91,10 @@ def test_stubs_have_the_docstrings_of_the_module(name, needs):
             assert inspect.cleandoc(ast.get_docstring(node)) == inspect.getdoc(getattr(module, node.name)), node.name
             seen += 1
     assert seen > 15
+
+
+def test_the_reference_has_everything_public():
+    reference = (pathlib.Path(__file__).resolve().parents[1] / "reference" / "index.rst").read_text()
+    for key in nef.__all__:
+        module = getattr(nef, key).__module__
+        assert f":: nef.{key}\n" in reference or f"automodule:: {module}\n" in reference, key

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Assemblies, free directions, and the widest robot: answers known by hand."""
+import json
+from fractions import Fraction
+
+import pytest
+
+import nef
+
+
+def tube(low, high):
+    """A box without the interior of one that passes through it along z."""
+    inner = nef.box((low[0] + 1, low[1] + 1, low[2] - 1), (high[0] - 1, high[1] - 1, high[2] + 1))
+    return nef.box(low, high) - inner.interior()
+
+
+def test_a_peg_leaves_upward(needs):
+    planner = needs("planner")
+    parts = {"block": nef.box((0, 0, 0), (3, 3, 3)) - nef.box((1, 1, 1), (2, 2, 4)).interior(),
+             "peg": nef.box((1, 1, 1), (2, 2, 4))}
+    parts["block"] = parts["block"].regularize()
+    answer = planner.disassemble(parts)
+    assert answer.status == "sequence" and answer.overlap is None and answer.inseparable == answer.undecided == []
+    step = answer.steps[0]
+    assert {step.parts[0], step.stay[0]} == {"peg", "block"} and step.straight
+    up = 1 if step.parts == ["peg"] else -1
+    assert step.path[-1][0] == step.path[-1][1] == 0 and up * step.path[-1][2] > 0
+    free = planner.free_directions(parts, "peg")
+    assert (free.dimension, free.rays, free.everything) == (1, [(0, 0, 1)], False)
+    assert free.cone == nef.segment((0, 0, 0), (0, 0, 1))
+    assert free.stops[0][0] == "block"
+    assert planner.verdict(parts).parts[1].rays == free.rays
+
+
+def test_linked_rings_are_inseparable(needs):
+    planner = needs("planner")
+    rings = {"flat": tube((0, 0, 0), (5, 5, 1)),
+             "upright": nef.box((2, 2, -2), (7, 3, 3)) - nef.box((3, 1, -1), (6, 4, 2)).interior()}
+    answer = planner.disassemble(rings)
+    assert answer.status == "inseparable" and not answer.steps
+    assert sorted(answer.inseparable[0].parts) == ["flat", "upright"]
+    assert not answer.inseparable[0].nothing_moves  # there is play
+    apart = planner.disassemble({"a": nef.box((0, 0, 0), (1, 1, 1)), "b": nef.box((2, 0, 0), (3, 1, 1))})
+    assert apart.status == "sequence"
+
+
+def test_a_part_in_a_closed_box_cannot_move(needs):
+    planner = needs("planner")
+    core = nef.box((1, 1, 1), (2, 2, 2))
+    parts = {"shell": (nef.box((0, 0, 0), (3, 3, 3)) - core.interior()).regularize(), "core": core}
+    free = planner.free_directions(parts, "core")
+    assert (free.dimension, free.rays) == (0, []) and free.cone == nef.point((0, 0, 0))
+    stuck = planner.disassemble(parts).inseparable[0]
+    assert stuck.nothing_moves and stuck.blocked_by["core"] == ["shell"]
+
+
+def test_overlaps_and_bad_parts(needs, tmp_path):
+    planner = needs("planner")
+    a, b = nef.box((0, 0, 0), (2, 2, 2)), nef.box((1, 1, 1), (3, 3, 3))
+    assert planner.disassemble({"a": a, "b": b}).overlap in (("a", "b"), ("b", "a"))
+    for call in (lambda: planner.free_directions({"a": a, "b": b}, "a"), lambda: planner.free_directions({"a": a}, "c"),
+                 lambda: planner.disassemble({}), lambda: planner.disassemble({"a": nef.point((0, 0, 0))}),
+                 lambda: planner.disassemble({"a": a}, digits=999), lambda: planner.verdict({"a": nef.everything()})):
+        with pytest.raises(nef.InputError):
+            call()
+    file = tmp_path / "parts.json"
+    file.write_text(json.dumps({"parts": {"a": "box(0,0,0, 2,2,2)", "b": "box(2,0,0, 3,1,1)"}}))
+    assert planner.disassemble(file).status == "sequence"
+    assert planner.free_directions(file, "b").dimension == 3
+
+
+def test_the_widest_robot(needs):
+    planner = needs("planner")
+    wall = nef.box((4, 0, 0), (5, 9, 9)) - nef.box((3, 3, 3), (6, 5, 5)).interior()
+    scene = planner.Scene(nef.box((0, 0, 0), (1, 1, 1)), [wall], box=((0, 0, 0), (8, 8, 8)))
+    found = scene.widest((1, 1, 1), (6, 6, 6))
+    assert found.low == 2 and 2 < found.high <= 2 + Fraction(2, 500) and not found.undecided
+    assert found.robot == nef.box((0, 0, 0), (2, 2, 2))
+    # The cube from -r to r widens the robot by 2 r, and leaves its reference point in place.
+    grown = scene.widest((1, 1, 1), (6, 6, 6), growth="box", precision="1/100")
+    assert grown.low == Fraction(1, 2) and grown.high > grown.low
+    assert scene.widest((1, 1, 1), (6, 6, 6), seconds=0).undecided
+    with pytest.raises(nef.InputError, match="growth"):
+        scene.widest((1, 1, 1), (6, 6, 6), growth="ball")
+    with pytest.raises(nef.InputError, match="max_cells"):
+        scene.widest((1, 1, 1), (6, 6, 6), max_cells=7)
+    with pytest.raises(nef.InputError, match="precision"):
+        scene.widest((1, 1, 1), (6, 6, 6), precision=0)

@@ -104,7 +104,7 @@ Polyhedron largest_part(const Polyhedron& a, const std::string& by) {
 void bind_operations(PolyhedronClass& c) {
   c.def(py::init<>(), "The empty set.")
       .def("__or__", binary(unite), py::is_operator(), "Union.")
-      .def("__add__", binary(unite), py::is_operator(), "Union, as |.")
+      .def("__add__", binary(unite), py::is_operator(), "Union, as ``|``.")
       .def("__and__", binary(intersect), py::is_operator(), "Intersection.")
       .def("__sub__", binary(subtract), py::is_operator(), "Difference.")
       .def("__xor__", binary(symmetric_difference), py::is_operator(), "Symmetric difference.")

@@ -172,7 +172,7 @@ void bind_tiled_operators(py::class_<Tiles>& c) {
     c.def(name, with_plain(plain), py::is_operator(), text);
   };
   both("__or__", unite, unite, "Union.");
-  both("__add__", unite, unite, "Union, as |.");
+  both("__add__", unite, unite, "Union, as ``|``.");
   both("__and__", intersect, intersect, "Intersection.");
   both("__sub__", subtract, subtract, "Difference.");
   both("__xor__", symmetric_difference, symmetric_difference, "Symmetric difference.");

@@ -246,8 +246,8 @@ std::optional<std::string> cut_note(const Result& result) {
       fmt::format("{}", fmt::join(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(told), ", "));
   if (told < names.size()) list += fmt::format(" and {} more", names.size() - told);
   return fmt::format(
-      "the image frame cuts the silhouette{} of view{} {}; beyond the frame is taken as background, unless --border is "
-      "unknown",
+      "the image frame cuts the silhouette{} of view{} {}; what lies beyond it is taken as background, unless you give "
+      "--border unknown",
       names.size() == 1 ? "" : "s", names.size() == 1 ? "" : "s", list);
 }
 

@@ -183,7 +183,8 @@ TEST_CASE("Bad use and bad input: one line, exit code 2") {
   fails(run(data("letters/nef.vsh") + " --report " + s.folder().string()), "is a directory");
   fails(run(data("letters/nef.vsh") + " --overlay " + data("letters/nef.vsh")), "cannot make the directory");
   fails(run(data("letters/nef.vsh") + " --silhouette " + (s.folder() / "none.json").string()), "no such file");
-  fails(run(data("eight/eight.json") + " --images " + data("letters")), "holds 0 images, but the scene has 12 views");
+  fails(run(data("eight/eight.json") + " --images " + data("letters")),
+        "contains 0 images, but the scene has 12 views");
   fails(run(data("eight/eight.json") + " --images /no/such/place"), "is not a directory of images");
   fails(run(data("eight/eight.json") + " --channel red"), "1 channels only");
   fails(run(data("eight/eight.json") + " --min-area 1e6"), "view eight_00.png: the silhouette is empty without");
@@ -229,7 +230,7 @@ TEST_CASE("A decimated hull is a legal mesh of few triangles, whose distance is 
   CHECK(difference < 2 * decimated["distance"]["high"].get<double>() * nef::surface_area(whole));
   CHECK_THAT(run(scene + " --decimate 200").output, Contains("decimated to"));
   CHECK(run(data("letters/mpi.vsh") + " --decimate 60").code == 2);
-  CHECK_THAT(run(data("letters/mpi.vsh") + " --decimate 60 -o a.nef").output, Contains("a.nef cannot hold that"));
+  CHECK_THAT(run(data("letters/mpi.vsh") + " --decimate 60 -o a.nef").output, Contains("a.nef cannot store this"));
 }
 
 TEST_CASE("The option --json prints the report and nothing else, --quiet nothing at all") {

@@ -12,6 +12,7 @@ import pytest
 import nef
 
 CUBE = nef.box((0, 0, 0), (1, 1, 1))
+ROOT = pathlib.Path(os.environ.get("NEF_SOURCE_DIR", pathlib.Path(__file__).parents[2]))
 
 
 def test_sums(needs):
@@ -407,9 +408,49 @@ def test_cameras_by_a_board(needs, tmp_path):
 
 def test_visual_hull_of_files(needs):
     visual_hull = needs("visual_hull")
-    root = pathlib.Path(os.environ.get("NEF_SOURCE_DIR", pathlib.Path(__file__).parents[2]))
-    scenes = sorted((root / "data/visual_hull").glob("eight/eight.json"))
+    scenes = sorted((ROOT / "data/visual_hull").glob("eight/eight.json"))
     if not scenes:
         pytest.skip("no scene in data/visual_hull")
     hull = visual_hull.read(scenes[0], tolerance=2, verify=False)
     assert hull.solid.is_bounded() and not hull.solid.is_empty()
+
+
+def test_how_files_are_read(needs):
+    visual_hull = needs("visual_hull")
+    scene = ROOT / "data" / "visual_hull" / "eight" / "eight.json"
+    hull = visual_hull.read(scene, tolerance=3, verify=False)
+    assert visual_hull.read(scene, tolerance=3, verify=False, threshold="otsu").solid == hull.solid
+    assert visual_hull.read(scene, tolerance=3, verify=False, threshold=100, channel="gray").solid == hull.solid
+    assert visual_hull.read(scene, tolerance=3, verify=False, way="cones").solid == hull.solid
+    turned = visual_hull.read(scene, tolerance=3, verify=False, up="x").solid
+    low, high = hull.solid.bounding_box()
+    # What was along x is along z now, in the same sense.
+    assert (turned.bounding_box()[0][2], turned.bounding_box()[1][2]) == (low[0], high[0])
+    assert turned.volume() == hull.solid.volume()
+    for bad in (dict(mask="auto", threshold=3), dict(way="short"), dict(way="direct", at_least=4), dict(up="w"),
+                dict(channel="colour"), dict(threshold="dark"), dict(turntable=12, radius=2)):
+        with pytest.raises(nef.InputError):
+            visual_hull.read(scene, **bad)
+    assert not hull.views[0].cut_by_frame  # and what is around the object is
+    assert visual_hull.read(scene, tolerance=3, verify=False, invert=True, threshold=100, box=hull.box).views[0].cut_by_frame
+
+
+def test_turntables(needs, tmp_path):
+    visual_hull = needs("visual_hull")
+    # A ball of radius 1 at the origin, seen by a camera at the distance 4: a circle of radius f / sqrt(15).
+    size, focal, distance, count = 201, 300, 4, 12
+    v, u = numpy.mgrid[:size, :size]
+    disk = 255 * ((u - 100) ** 2 + (v - 100) ** 2 < focal ** 2 / 15).astype(numpy.uint8)
+    for i in range(count):
+        (tmp_path / f"{i:02}.pgm").write_bytes(b"P5 %d %d 255 " % (size, size) + disk.tobytes())
+    hull = visual_hull.read(tmp_path, turntable=count, intrinsics=(focal, 100, 100), radius=distance, tolerance=1, verify=False)
+    cameras = []
+    for i in range(count):
+        angle = 2 * numpy.pi * i / count
+        back = numpy.array([numpy.cos(angle), numpy.sin(angle), 0])
+        rotation = numpy.array([[-back[1], back[0], 0], [0, 0, -1], -back])
+        k = numpy.array([[focal, 0, 100], [0, focal, 100], [0, 0, 1]])
+        cameras.append(k @ numpy.column_stack([rotation, -rotation @ (distance * back)]))
+    known = visual_hull.compute([disk] * count, cameras, tolerance=1, verify=False)
+    assert hull.solid.approximate_volume().value == pytest.approx(known.solid.approximate_volume().value, rel=0.02)
+    assert (0, 0, "0.9") in hull.solid and (0, "0.9", 0) in hull.solid and (0, "1.2", 0) not in hull.solid

@@ -10,6 +10,7 @@ import gc
 import os
 import signal
 import statistics
+import subprocess
 import sys
 import threading
 import time
@@ -26,6 +27,13 @@ def best(work, runs=5, clock=time.process_time):
         work()
         times.append(clock() - begin)
     return min(times)
+
+
+def imports():
+    code = "import numpy, time; begin = time.process_time(); import nef; print(time.process_time() - begin)"
+    seconds = min(float(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout)
+                  for _ in range(7))
+    print(f"import nef, beyond numpy: {1000 * seconds:.0f} ms (must be under 60)")
 
 
 def sphere(rings, segments, radius=1.0):
@@ -145,7 +153,7 @@ def ctrl_c():
 
 if __name__ == "__main__":
     wanted = sys.argv[1:]
-    for measurement in (one_point, many_points, meshes, memory, two_threads, ctrl_c):
+    for measurement in (imports, one_point, many_points, meshes, memory, two_threads, ctrl_c):
         if not wanted or measurement.__name__ in wanted:
             measurement()
             sys.stdout.flush()

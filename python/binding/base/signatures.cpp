@@ -37,7 +37,7 @@ std::size_t end_of_part(std::string_view line, std::size_t at, std::string_view 
 std::string without_type(std::string_view parameter) {
   const std::size_t colon = parameter.find(": ");
   if (colon == std::string_view::npos) return std::string(parameter);  // "*"
-  const std::string name(parameter.substr(0, colon));
+  std::string name(parameter.substr(0, colon));
   const std::size_t equals = end_of_part(parameter, colon, "=");
   if (equals == std::string_view::npos) return name;
   return name + "=" + std::string(parameter.substr(equals + 2));

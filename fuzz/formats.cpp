@@ -156,7 +156,7 @@ void read_colmap_model(const std::string& text) {
   const std::size_t end = std::min(text.find(kNextFile), text.size());
   write_file(folder.file("cameras.txt"), text.substr(0, end));
   write_file(folder.file("images.txt"), text.substr(std::min(end + kNextFile.size(), text.size())));
-  static_cast<void>(visual_hull::read_colmap(folder.file("")));
+  static_cast<void>(nef::visual_hull::read_colmap(folder.file("")));
 }
 
 void append(std::string& bytes, std::uint32_t value) {
@@ -335,40 +335,42 @@ std::vector<Format> other_formats() {
       Format{"inseparable-proof", proof_of_parts, read_proof_of_parts},
       Format{"hull-scene", hull_scene,
              [](const std::string& text) {
-               static_cast<void>(visual_hull::read_json_scene(text, "/nonexistent/scene.json"));
+               static_cast<void>(nef::visual_hull::read_json_scene(text, "/nonexistent/scene.json"));
              }},
       Format{"vsh", vsh_scene,
-             [](const std::string& text) { static_cast<void>(visual_hull::read_vsh(text, "/nonexistent/scene.vsh")); }},
+             [](const std::string& text) {
+               static_cast<void>(nef::visual_hull::read_vsh(text, "/nonexistent/scene.vsh"));
+             }},
       Format{"matrices", matrix_scene,
              [](const std::string& text) {
-               static_cast<void>(visual_hull::read_text_scene(text, "/nonexistent/scene.txt"));
+               static_cast<void>(nef::visual_hull::read_text_scene(text, "/nonexistent/scene.txt"));
              }},
       Format{"opencv-yaml", opencv_yaml,
              [](const std::string& text) {
-               static_cast<void>(visual_hull::read_opencv_storage(text, "/nonexistent/scene.yml", ""));
+               static_cast<void>(nef::visual_hull::read_opencv_storage(text, "/nonexistent/scene.yml", ""));
              }},
       Format{"opencv-xml", opencv_xml,
              [](const std::string& text) {
-               static_cast<void>(visual_hull::read_opencv_storage(text, "/nonexistent/scene.xml", ""));
+               static_cast<void>(nef::visual_hull::read_opencv_storage(text, "/nonexistent/scene.xml", ""));
              }},
       Format{"matlab", matlab_file,
              [](const std::string& bytes) {
                const test::TemporaryFolder folder;
                write_file(folder.file("scene.mat"), bytes);
-               static_cast<void>(visual_hull::read_matlab(folder.file("scene.mat"), ""));
+               static_cast<void>(nef::visual_hull::read_matlab(folder.file("scene.mat"), ""));
              }},
       Format{"parameter-blocks", parameter_blocks,
              [](const std::string& text) {
-               static_cast<void>(visual_hull::read_parameter_blocks(text, "/nonexistent/scene.txt"));
+               static_cast<void>(nef::visual_hull::read_parameter_blocks(text, "/nonexistent/scene.txt"));
              }},
       Format{"transforms", transforms_scene,
              [](const std::string& text) {
-               static_cast<void>(visual_hull::read_json_scene(text, "/nonexistent/transforms.json"));
+               static_cast<void>(nef::visual_hull::read_json_scene(text, "/nonexistent/transforms.json"));
              }},
       Format{"colmap", colmap_model, read_colmap_model},
       Format{"middlebury", middlebury_scene,
              [](const std::string& text) {
-               static_cast<void>(visual_hull::read_text_scene(text, "/nonexistent/scene.txt"));
+               static_cast<void>(nef::visual_hull::read_text_scene(text, "/nonexistent/scene.txt"));
              }},
   };
 }

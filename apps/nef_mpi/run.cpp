@@ -104,7 +104,7 @@ class Run {
   void add_frames(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("visual_hull", "Visual hulls of all frames of a scene, as visual_hull --frames makes them");
-    visual_hull::add_options(*command, hull_);
+    nef::visual_hull::add_options(*command, hull_);
     command->callback([this] { job_ = [this] { return frames(); }; });
   }
 
@@ -219,14 +219,14 @@ class Run {
     if (hull_.frames.empty())
       throw TasksFailed("visual_hull: frames are what ranks share: give --frames (visual_hull computes a single hull)");
     session_.quiet = session_.quiet || !mpi_.first();
-    std::unique_ptr<visual_hull::FrameTasks> tasks;
-    std::unique_ptr<visual_hull::FrameRecord> record;
+    std::unique_ptr<nef::visual_hull::FrameTasks> tasks;
+    std::unique_ptr<nef::visual_hull::FrameRecord> record;
     on_first([&] {
-      tasks = std::make_unique<visual_hull::FrameTasks>(hull_);
-      record = std::make_unique<visual_hull::FrameRecord>(hull_, *tasks);
+      tasks = std::make_unique<nef::visual_hull::FrameTasks>(hull_);
+      record = std::make_unique<nef::visual_hull::FrameRecord>(hull_, *tasks);
       session_.say(tasks->understanding());
     });
-    if (!tasks) tasks = std::make_unique<visual_hull::FrameTasks>(hull_);
+    if (!tasks) tasks = std::make_unique<nef::visual_hull::FrameTasks>(hull_);
     do_tasks(mpi_,
              {.name = "frames",
               .count = tasks->size(),
@@ -250,7 +250,7 @@ class Run {
   std::size_t part_ = 500;
   std::string times_;
   std::string times_text_;
-  visual_hull::Arguments hull_{session_};
+  nef::visual_hull::Arguments hull_{session_};
   std::string job_text_;  // on rank 0
   std::function<int()> job_;
 };

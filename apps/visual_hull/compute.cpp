@@ -31,7 +31,7 @@
 #include "nef/polyhedron.h"
 #include "nef/query/measures/approximate_volume.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 constexpr std::size_t kDirectVertices = 150;  // of all polygons: with fewer the general way is as fast
@@ -636,4 +636,4 @@ Result HullStream::frame(const std::filesystem::path& folder, const std::optiona
   return result;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -7,5 +7,5 @@
 
 int main(int argc, char** argv) {
   nef::keep_freed_memory();
-  return visual_hull::run_command(argc, argv);
+  return nef::visual_hull::run_command(argc, argv);
 }

@@ -2,7 +2,7 @@
 //
 // Video: the hulls of one rig of cameras, frame after frame.
 //
-//   const visual_hull::HullStream stream(visual_hull::read_scene("rig.json"), options);
+//   const nef::visual_hull::HullStream stream(nef::visual_hull::read_scene("rig.json"), options);
 //   while (camera.grab(masks)) nef::Mesh mesh = nef::to_mesh(stream.frame(masks).hull);
 #pragma once
 
@@ -14,7 +14,7 @@
 
 #include "apps/visual_hull/visual_hull.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// A scene whose cameras stay while its images change. What depends on the cameras alone (their inverses, the place of
 /// the scene) is computed once. Frames are independent of each other: any number of threads may ask for one at a time,
@@ -41,4 +41,4 @@ class HullStream {
   std::shared_ptr<const State> state_;
 };
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

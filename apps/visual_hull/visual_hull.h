@@ -2,11 +2,11 @@
 //
 // The library: from a scene to its exact visual hull [Laurentini 1994].
 //
-//   visual_hull::Scene scene = visual_hull::read_scene("scene.json");
-//   visual_hull::Options options;
+//   nef::visual_hull::Scene scene = nef::visual_hull::read_scene("scene.json");
+//   nef::visual_hull::Options options;
 //   options.silhouette.simplify.tolerance = 1;
-//   visual_hull::Result result = visual_hull::compute(scene, visual_hull::scene_folder("scene.json"), options);
-//   nef::write_polyhedron(result.hull, "hull.off");
+//   nef::visual_hull::Result result = nef::visual_hull::compute(scene, nef::visual_hull::scene_folder("scene.json"),
+//   options); nef::write_polyhedron(result.hull, "hull.off");
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@
 #include "nef/geometry/predicates.h"
 #include "nef/polyhedron.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// The steps of the work, in their order.
 enum class Phase : std::uint8_t { kLoad, kContours, kRefine, kBox, kSuspects, kCones, kIntersection, kVerify, kWrite };
@@ -128,4 +128,4 @@ Result compute(const Scene& scene, const std::filesystem::path& folder, const Op
 void timed(PhaseReports& reports, Phase phase, const nef::Monitor& monitor,
            const std::function<void(const nef::Monitor&)>& work);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -23,7 +23,7 @@
 #include "nef/base/freed_memory.h"
 #endif
 
-namespace visual_hull::bench {
+namespace nef::visual_hull::bench {
 namespace {
 
 struct Settings {
@@ -187,11 +187,11 @@ void run(const Settings& settings) {
 }
 
 }  // namespace
-}  // namespace visual_hull::bench
+}  // namespace nef::visual_hull::bench
 
 int main(int argc, char** argv) {
   nef::keep_freed_memory();
-  visual_hull::bench::Settings settings;
+  nef::visual_hull::bench::Settings settings;
   bool no_growth = false;
   CLI::App app{"Times of the visual hull's intersection, beside CGAL where it is installed"};
   app.add_option("SCENES", settings.scenes, "Further scenes to measure");
@@ -204,7 +204,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   settings.growth = !no_growth;
   try {
-    visual_hull::bench::run(settings);
+    nef::visual_hull::bench::run(settings);
   } catch (const std::exception& error) {
     std::cerr << "nef_bench_visual_hull: " << error.what() << "\n";
     return 2;

@@ -9,7 +9,7 @@
 #include <ctime>
 #include <sstream>
 
-namespace visual_hull::bench {
+namespace nef::visual_hull::bench {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
@@ -102,4 +102,4 @@ PeerResult intersect_with_cgal(const std::vector<ViewResult>& views, const World
   return result;
 }
 
-}  // namespace visual_hull::bench
+}  // namespace nef::visual_hull::bench

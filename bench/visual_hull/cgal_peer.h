@@ -6,7 +6,7 @@
 
 #include "apps/visual_hull/visual_hull.h"
 
-namespace visual_hull::bench {
+namespace nef::visual_hull::bench {
 
 /// What CGAL makes of the same cones.
 struct PeerResult {
@@ -19,4 +19,4 @@ struct PeerResult {
 /// kernel of exact constructions. The cones are built before the clock starts.
 PeerResult intersect_with_cgal(const std::vector<ViewResult>& views, const WorldBox& box);
 
-}  // namespace visual_hull::bench
+}  // namespace nef::visual_hull::bench

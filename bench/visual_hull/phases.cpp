@@ -20,7 +20,7 @@
 #include "nef/query/measure.h"
 #include "nef/query/measures/approximate_volume.h"
 
-namespace visual_hull::bench {
+namespace nef::visual_hull::bench {
 namespace {
 
 struct Settings {
@@ -97,11 +97,11 @@ void measure(const std::string& file, const Settings& settings) {
 }
 
 }  // namespace
-}  // namespace visual_hull::bench
+}  // namespace nef::visual_hull::bench
 
 int main(int argc, char** argv) {
-  using visual_hull::bench::measure;
-  using visual_hull::bench::Settings;
+  using nef::visual_hull::bench::measure;
+  using nef::visual_hull::bench::Settings;
   Settings settings;
   std::string way = "best";
   CLI::App app{"Visual hulls phase by phase, beside voxel carving"};
@@ -112,7 +112,7 @@ int main(int argc, char** argv) {
   app.add_option("--threads", settings.threads, "Threads of the hull")->capture_default_str();
   app.add_option("--way", way, "As of visual_hull")->check(CLI::IsMember({"best", "direct", "cones"}));
   CLI11_PARSE(app, argc, argv);
-  if (way != "best") settings.way = way == "direct" ? visual_hull::Way::kDirect : visual_hull::Way::kCones;
+  if (way != "best") settings.way = way == "direct" ? nef::visual_hull::Way::kDirect : nef::visual_hull::Way::kCones;
   std::cout << fmt::format(
       "{:<24} {:>5} {:>7} {:>7} {:>6} {:>7} {:>8} {:>7} {:>7} {:>7} {:>7} {:>7} {:>8} {:>8} {:>10}\n",
       "processor seconds", "views", "polygon", "hull", "way", "load", "contours", "box", "cones", "hull", "export",

@@ -12,7 +12,7 @@
 #include "tests/visual_hull/refine/camera_difference.h"
 
 int main(int argc, char** argv) {
-  namespace rendered = visual_hull::testing;
+  namespace rendered = nef::visual_hull::testing;
   CLI::App app("How near --refine comes to the truth, on rendered sets");
   int views = 10;
   unsigned sets = 20;
@@ -26,12 +26,12 @@ int main(int argc, char** argv) {
     const rendered::Set set = rendered::rendered_set(rendered::generic_object(seed), rendered::ring(views, turntable));
     const std::vector<rendered::Shot> given = rendered::disturbed(set.truth, 0.5, 5, 1.01, 7 * seed);
     const nef::ProcessStopwatch watch;
-    const visual_hull::refine::Refinement refined = rendered::refined_cameras(set, given);
+    const nef::visual_hull::refine::Refinement refined = rendered::refined_cameras(set, given);
     const double seconds = watch.seconds();
     fmt::print("| {} | {:.2f} | {:.3f} | {} | {:.2f} |\n", seed,
                rendered::difference(rendered::cameras_by(given), set.truth).pixels,
                rendered::difference(rendered::cameras_by(refined), set.truth).pixels,
-               visual_hull::refine::model_name(refined.model), seconds);
+               nef::visual_hull::refine::model_name(refined.model), seconds);
   }
   return 0;
 }

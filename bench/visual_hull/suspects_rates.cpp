@@ -18,7 +18,7 @@
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
 
-namespace visual_hull::bench {
+namespace nef::visual_hull::bench {
 namespace {
 
 using Random = std::mt19937_64;
@@ -279,7 +279,7 @@ void run(const std::vector<std::string>& scenes, std::size_t views_a_kind, std::
 }
 
 }  // namespace
-}  // namespace visual_hull::bench
+}  // namespace nef::visual_hull::bench
 
 int main(int argc, char** argv) {
   std::vector<std::string> scenes;
@@ -291,7 +291,7 @@ int main(int argc, char** argv) {
   app.add_option("--subsets", subsets, "Random subsets of each clean set");
   CLI11_PARSE(app, argc, argv);
   try {
-    visual_hull::bench::run(scenes, views, subsets);
+    nef::visual_hull::bench::run(scenes, views, subsets);
   } catch (const std::exception& error) {
     std::cerr << "nef_bench_suspects: " << error.what() << "\n";
     return 2;

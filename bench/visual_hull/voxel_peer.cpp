@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-namespace visual_hull::bench {
+namespace nef::visual_hull::bench {
 
 double carve(const std::vector<cv::Mat>& masks, const Result& result, int n) {
   std::array<double, 3> low{};
@@ -61,4 +61,4 @@ std::vector<cv::Mat> drawn_masks(const Result& result, int width, int height) {
   return masks;
 }
 
-}  // namespace visual_hull::bench
+}  // namespace nef::visual_hull::bench

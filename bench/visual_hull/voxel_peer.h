@@ -6,7 +6,7 @@
 
 #include "apps/visual_hull/visual_hull.h"
 
-namespace visual_hull::bench {
+namespace nef::visual_hull::bench {
 
 /// Voxel carving as it is usually done: the volume of those of n^3 voxels of the result's box whose centres all masks
 /// show. masks[i], one channel of 8 bits, is that of the result's view i.
@@ -15,4 +15,4 @@ double carve(const std::vector<cv::Mat>& masks, const Result& result, int n);
 /// The silhouettes of a result as masks, for views that have no images.
 std::vector<cv::Mat> drawn_masks(const Result& result, int width, int height);
 
-}  // namespace visual_hull::bench
+}  // namespace nef::visual_hull::bench

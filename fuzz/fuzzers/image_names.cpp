@@ -60,11 +60,11 @@ void fuzz_image_names(const Case& the_case) {
     the_case.tell(name);
     write_file(folder.file(name), "x");
   }
-  visual_hull::Scene scene;
+  nef::visual_hull::Scene scene;
   scene.views.resize(wanted.size());
   Messages notes;
   std::vector<std::string> got;
-  for (const fs::path& file : visual_hull::images_of(scene, folder.file(""), std::nullopt, &notes)) {
+  for (const fs::path& file : nef::visual_hull::images_of(scene, folder.file(""), std::nullopt, &notes)) {
     got.push_back(file.filename().string());
   }
   Case::require(got == wanted, "order: images are not paired by number");

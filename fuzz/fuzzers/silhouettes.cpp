@@ -145,21 +145,21 @@ void shrink_image(Choices& choices, TestView& view) {
   }
 }
 
-visual_hull::Scene scene_of(const std::vector<TestView>& views, int half) {
-  visual_hull::Scene scene;
+nef::visual_hull::Scene scene_of(const std::vector<TestView>& views, int half) {
+  nef::visual_hull::Scene scene;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    visual_hull::View view;
+    nef::visual_hull::View view;
     view.name = "view" + std::to_string(i);
-    view.camera = visual_hull::Camera(view.name, views[i].matrix);
+    view.camera = nef::visual_hull::Camera(view.name, views[i].matrix);
     view.polygons.emplace();
     for (const PlanarRing& ring : views[i].rings) {
-      visual_hull::Ring points;
+      nef::visual_hull::Ring points;
       for (const Planar& p : ring) points.emplace_back(p[0], p[1]);
       view.polygons->push_back(points);
     }
     scene.views.push_back(std::move(view));
   }
-  if (half > 0) scene.box = visual_hull::WorldBox{{-half, -half, -half}, {half, half, half}};
+  if (half > 0) scene.box = nef::visual_hull::WorldBox{{-half, -half, -half}, {half, half, half}};
   return scene;
 }
 
@@ -193,7 +193,7 @@ std::string point_term(const Rational3& p) {
 }
 
 void check_points(const Case& the_case, const std::vector<TestView>& views, int half,
-                  const visual_hull::Result& result) {
+                  const nef::visual_hull::Result& result) {
   const int reach = half > 0 ? 2 * half + 1 : 7;
   std::size_t corners = 0;
   for (const TestView& view : views) {
@@ -223,12 +223,12 @@ void check_points(const Case& the_case, const std::vector<TestView>& views, int 
 
 // The hull by the way that was not gone, as far as it can be.
 void check_other_way(const Case& the_case, const std::vector<TestView>& views, int half,
-                     const visual_hull::Result& result) {
-  visual_hull::Options options;
-  options.way = result.direct ? visual_hull::Way::kCones : visual_hull::Way::kDirect;
-  std::optional<visual_hull::Result> other;
+                     const nef::visual_hull::Result& result) {
+  nef::visual_hull::Options options;
+  options.way = result.direct ? nef::visual_hull::Way::kCones : nef::visual_hull::Way::kDirect;
+  std::optional<nef::visual_hull::Result> other;
   try {
-    other = visual_hull::compute(scene_of(views, half), ".", options);
+    other = nef::visual_hull::compute(scene_of(views, half), ".", options);
   } catch (const Error&) {
     Case::require(!result.direct, "refused: by cones");
     the_case.count("not vertex by vertex");
@@ -266,10 +266,10 @@ void fuzz_silhouettes(const Case& the_case) {
   }
   tell_scene(the_case, views, half);
 
-  visual_hull::Options options;
-  visual_hull::Result result;
+  nef::visual_hull::Options options;
+  nef::visual_hull::Result result;
   try {
-    result = visual_hull::compute(scene_of(views, half), ".", options);
+    result = nef::visual_hull::compute(scene_of(views, half), ".", options);
   } catch (const Error&) {
     Case::require(half == 0, "refused: a scene with a box");
     the_case.count("unbounded");

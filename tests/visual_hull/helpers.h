@@ -15,7 +15,7 @@
 #include "apps/visual_hull/visual_hull.h"
 #include "nef/construct/construct.h"
 
-namespace visual_hull::testing {
+namespace nef::visual_hull::testing {
 
 /// A RapidCheck property as a Catch assertion; RapidCheck prints the seed and the shrunk example.
 template <typename Testable>
@@ -124,4 +124,4 @@ inline bool subset(const nef::Polyhedron& part, const nef::Polyhedron& whole) {
   return nef::subtract(part, whole).is_empty();
 }
 
-}  // namespace visual_hull::testing
+}  // namespace nef::visual_hull::testing

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <string>
 
-namespace visual_hull::testing {
+namespace nef::visual_hull::testing {
 
 /// A fresh folder for one test, removed at its end.
 class Scratch {
@@ -39,4 +39,4 @@ class Scratch {
   std::filesystem::path folder_;
 };
 
-}  // namespace visual_hull::testing
+}  // namespace nef::visual_hull::testing

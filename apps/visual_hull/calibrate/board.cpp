@@ -16,7 +16,7 @@
 #include "nef/base/error.h"
 #include "nef/base/in_quotes.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 constexpr std::array<int, 4> kFamilies{50, 100, 250, 1000};
@@ -170,4 +170,4 @@ std::vector<Eigen::Vector3d> board_corners(const Board& board) {
   return corners;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// A board as `--board` describes it. Lengths are millimetres.
 struct Board {
@@ -45,4 +45,4 @@ std::vector<BlackTile> black_tiles(const Board& board);
 /// right, y up, z out of the sheet.
 std::vector<Eigen::Vector3d> board_corners(const Board& board);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

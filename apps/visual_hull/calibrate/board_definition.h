@@ -7,9 +7,9 @@
 
 #include "apps/visual_hull/calibrate/board.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// OpenCV's object for a board; its coordinates are millimetres from a corner of the board.
 cv::Ptr<cv::aruco::CharucoBoard> board_definition(const Board& board);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 constexpr double kSignificant = 10;     // F, for each parameter
@@ -192,4 +192,4 @@ std::optional<BoardPose> pose_by_board(const SeenBoard& view, const Lens& lens) 
   return best;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

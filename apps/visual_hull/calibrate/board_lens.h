@@ -9,7 +9,7 @@
 #include "apps/visual_hull/calibrate/find_board.h"
 #include "apps/visual_hull/scene/pose.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// A lens as boards determine it.
 struct BoardLens {
@@ -38,4 +38,4 @@ struct BoardPose {
 /// none.
 std::optional<BoardPose> pose_by_board(const SeenBoard& view, const Lens& lens);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -11,7 +11,7 @@
 #include "apps/view/image.h"
 #include "nef/base/error.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 constexpr double kPageMargin = 12;    // millimetres, around the board
@@ -146,4 +146,4 @@ std::string board_file(const Board& board, const std::string& extension) {
   throw nef::InputError("a board is written as .pdf, .svg or .png");
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -8,7 +8,7 @@
 
 #include "apps/visual_hull/calibrate/board.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// The size of a page in millimetres.
 struct PageSize {
@@ -28,4 +28,4 @@ std::string board_file(const Board& board, const std::string& extension);
 /// The board alone, with a white border of one square, so many pixels a millimetre: three channels of 8 bits.
 cv::Mat board_picture(const Board& board, double pixels);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -15,7 +15,7 @@
 #include "nef/base/error.h"
 #include "nef/base/threads/parallel.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 namespace fs = std::filesystem;
@@ -239,4 +239,4 @@ Calibration calibrate(const std::vector<fs::path>& photographs, const Board& boa
   return calibration;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

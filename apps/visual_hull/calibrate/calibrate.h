@@ -13,7 +13,7 @@
 #include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// What has become of one photograph.
 struct CalibratedView {
@@ -45,4 +45,4 @@ struct Calibration {
 Calibration calibrate(const std::vector<std::filesystem::path>& photographs, const Board& board,
                       const std::vector<std::filesystem::path>& lens = {}, const nef::Monitor& monitor = {});
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -6,7 +6,7 @@
 
 #include "apps/visual_hull/calibrate/board_definition.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 constexpr int kSmallPicture = 2000;  // pixels along its longer side
@@ -37,4 +37,4 @@ SeenBoard find_board(const cv::Mat& picture, const Board& board) {
   return seen;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

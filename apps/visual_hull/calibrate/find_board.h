@@ -8,7 +8,7 @@
 
 #include "apps/visual_hull/calibrate/board.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// Corners of a board that a photograph shows: their numbers, where they lie on the board (as board_corners has them)
 /// and where they are seen, in pixels whose centres are whole numbers.
@@ -22,4 +22,4 @@ struct SeenBoard {
 /// markers that were found, to a fraction of a pixel. Nothing if fewer than two markers are seen.
 SeenBoard find_board(const cv::Mat& picture, const Board& board);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

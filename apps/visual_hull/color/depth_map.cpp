@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 DepthMap::DepthMap(const Camera& camera, PixelOrigin origin, int width, int height)
     : width_(width),
@@ -73,4 +73,4 @@ bool DepthMap::sees(const Place& place) const {
   return place.inverse_depth * (1 + slack_) >= nearest;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

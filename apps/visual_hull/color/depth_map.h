@@ -8,7 +8,7 @@
 #include "apps/visual_hull/scene/camera.h"
 #include "apps/visual_hull/scene/scene.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// What is nearest at the centre of each pixel, in doubles: for display.
 class DepthMap {
@@ -40,4 +40,4 @@ class DepthMap {
   std::vector<double> nearest_;  // one over the depth
 };
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -13,7 +13,7 @@
 #include "nef/base/error.h"
 #include "nef/base/threads/parallel.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using Points = std::vector<std::array<double, 3>>;
@@ -193,4 +193,4 @@ VertexColors vertex_colors(const nef::Mesh& mesh, const std::vector<ViewResult>&
   return result;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

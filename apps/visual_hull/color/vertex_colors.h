@@ -10,7 +10,7 @@
 #include "apps/visual_hull/visual_hull.h"
 #include "nef/mesh/mesh.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// Red, green and blue, in sRGB.
 using Color = std::array<std::uint8_t, 3>;
@@ -33,4 +33,4 @@ std::filesystem::path photograph_of(const std::filesystem::path& image);
 VertexColors vertex_colors(const nef::Mesh& mesh, const std::vector<ViewResult>& views, PixelOrigin origin,
                            const nef::Monitor& monitor);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -16,7 +16,7 @@
 #include "nef/base/word_list.h"
 #include "nef/io/polyhedron_file.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 const char* const kFooter =
@@ -241,4 +241,4 @@ void take_silhouettes(Scene& scene, const std::vector<std::string>& arguments) {
   }
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

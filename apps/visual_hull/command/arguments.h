@@ -11,7 +11,7 @@
 #include "apps/program/session.h"
 #include "apps/visual_hull/visual_hull.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// The command line: what all programs have in `session` (output, report, flags of files), and the rest; see
 /// add_options for what it means.
@@ -71,4 +71,4 @@ Scene scene_of(const Arguments& arguments);
 /// Puts the polygons of --silhouette in place of images. Throws InputError.
 void take_silhouettes(Scene& scene, const std::vector<std::string>& arguments);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -16,7 +16,7 @@
 #include "nef/base/timing/stopwatch.h"
 #include "nef/io/file_bytes.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 namespace fs = std::filesystem;
@@ -141,4 +141,4 @@ int run_calibrate_command(int argc, char** argv) {
       app, argc, argv, [&a] { return run_calibrate(a); }, [&a](const std::string& line) { a.session.complain(line); });
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

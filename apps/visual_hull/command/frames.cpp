@@ -27,7 +27,7 @@
 #include "nef/io/file_bytes.h"
 #include "nef/query/measures/approximate_volume.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace fs = std::filesystem;
 
 namespace {
@@ -328,4 +328,4 @@ int make_frames(const Arguments& a) {
   return record.finish();
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -13,7 +13,7 @@
 #include "apps/visual_hull/command/arguments.h"
 #include "apps/visual_hull/stream.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// A path with a place for a number: "frame_%04d/" or "hull_%d.ply".
 class NumberedPath {
@@ -98,4 +98,4 @@ class FrameRecord {
 /// others. Returns the exit code of FrameRecord::finish.
 int make_frames(const Arguments& arguments);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -11,7 +11,7 @@
 #include "nef/io/mesh/mesh_formats.h"
 #include "nef/io/polyhedron_file.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 namespace {
 
@@ -81,4 +81,4 @@ std::string decimation_text(const nef::DecimatedMesh& decimated) {
                      decimated.mesh.face_count(), decimated.distance.low, decimated.distance.high);
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

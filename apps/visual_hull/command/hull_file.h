@@ -11,7 +11,7 @@
 #include "apps/visual_hull/command/arguments.h"
 #include "nef/io/polyhedron_file.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// Throws nef::InputError if what is asked of the output cannot be had.
 void check_output(const Arguments& arguments);
@@ -33,4 +33,4 @@ nlohmann::ordered_json decimation_json(const nef::DecimatedMesh& decimated);
 /// The same in a line.
 std::string decimation_text(const nef::DecimatedMesh& decimated);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -7,7 +7,7 @@
 
 #include "apps/visual_hull/masks/measures.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 constexpr int kSheetWidth = 1600;
@@ -48,4 +48,4 @@ cv::Mat mask_overview(const std::vector<std::filesystem::path>& photographs, con
   return sheet;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

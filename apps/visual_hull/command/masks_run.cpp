@@ -20,7 +20,7 @@
 #include "nef/base/timing/stopwatch.h"
 #include "nef/io/file_bytes.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 namespace fs = std::filesystem;
@@ -122,4 +122,4 @@ int run_masks_command(int argc, char** argv) {
       app, argc, argv, [&a] { return run(a); }, [&a](const std::string& line) { a.session.complain(line); });
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -10,7 +10,7 @@
 #include "nef/io/file_bytes.h"
 #include "nef/polyhedron.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using Vec = std::array<double, 2>;
@@ -121,4 +121,4 @@ void write_overlays(const Result& result, PixelOrigin origin, const std::filesys
   }
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -5,7 +5,7 @@
 
 #include "apps/visual_hull/visual_hull.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// The image of a view with the hull's projection (filled, blue; its edges thin), what the silhouette has beyond it
 /// (the residual, yellow) and the polygon of the silhouette (red) drawn over it. Views without an image get a canvas
@@ -19,4 +19,4 @@ std::string png_of(const cv::Mat& picture);
 /// Throws InputError if that is not possible.
 void write_overlays(const Result& result, PixelOrigin origin, const std::filesystem::path& folder);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -4,7 +4,7 @@
 #include "apps/visual_hull/scene/images.h"
 #include "nef/base/error.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 namespace fs = std::filesystem;
 
@@ -27,4 +27,4 @@ void make_folder(const std::string& option, const fs::path& folder) {
     throw nef::InputError(option + ": cannot make the directory " + folder.string());
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// The photographs that words name: files, and folders for all images in them, in the order of list_images.
 std::vector<std::filesystem::path> photographs_of(const std::vector<std::string>& words);
@@ -15,4 +15,4 @@ std::vector<std::filesystem::path> photographs_of(const std::vector<std::string>
 /// Makes a folder if it is not there. Throws InputError, with `option` in front.
 void make_folder(const std::string& option, const std::filesystem::path& folder);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -13,7 +13,7 @@
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 namespace fs = std::filesystem;
@@ -163,4 +163,4 @@ void write_page(const Result& result, PixelOrigin origin, const fs::path& file, 
   nef::view::write_page(page_layers(result, origin, monitor), file.string(), options);
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -8,7 +8,7 @@
 #include "apps/view/layer.h"
 #include "apps/visual_hull/visual_hull.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// The layers of a page: the hull, and the cameras, each with its image (or the polygon that it has in its place) on a
 /// plane between camera and hull. Images that are large, distorted, or no PNG or JPEG are embedded as smaller PNGs.
@@ -18,4 +18,4 @@ std::vector<nef::view::Layer> page_layers(const Result& result, PixelOrigin orig
 void write_page(const Result& result, PixelOrigin origin, const std::filesystem::path& file,
                 const nef::Monitor& monitor);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

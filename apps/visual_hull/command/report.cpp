@@ -13,7 +13,7 @@
 #include "apps/program/set_info.h"
 #include "nef/query/measures/approximate_volume.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using json = nef::Json;
@@ -276,4 +276,4 @@ std::string summary(const Result& result, const nef::Monitor& monitor) {
       nef::approximate_volume(result.hull, monitor).value, pieces_text(result.pieces), seconds);
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

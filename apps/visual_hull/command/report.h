@@ -11,7 +11,7 @@
 #include "apps/visual_hull/visual_hull.h"
 #include "nef/construct/construct.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// What a report has of a hull beside what all have (see nef::Session::print): `views` (contours, holes, vertices, cone
 /// facets), `box`, `result` (the keys of nef::set_info), `verify` if it was done, `suspects` (names) and measures in
@@ -43,4 +43,4 @@ std::optional<std::string> cut_note(const Result& result);
 /// One line about the hull, for people.
 std::string summary(const Result& result, const nef::Monitor& monitor = {});
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -25,7 +25,7 @@
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 namespace fs = std::filesystem;
@@ -190,4 +190,4 @@ int run_command(int argc, char** argv) {
       [&session](const std::string& line) { session.complain(line); });
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -7,7 +7,7 @@
 
 #include "nef/labeled_polyhedron.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 nef::Polyhedron in_at_least(std::span<const nef::Polyhedron> cones, std::size_t least, const nef::Polyhedron& room,
                             const nef::Monitor& monitor) {
@@ -71,4 +71,4 @@ Bounds bounds_of_at_least(std::span<const std::vector<HalfSpace>> cones, std::si
   return around_groups(cones, groups, [&](std::size_t i) { return i * groups / cones.size(); });
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -8,7 +8,7 @@
 #include "nef/base/monitor.h"
 #include "nef/forward.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// The points that at least `least` of the closed cones hold, within the closed `room`: a closed set, exact. Each cone
 /// is overlaid once with the subdivision that counts the cones before it; counts that decide nothing any more are one.
@@ -22,4 +22,4 @@ nef::Polyhedron in_at_least(std::span<const nef::Polyhedron> cones, std::size_t 
 /// O(half-spaces) expected.
 Bounds bounds_of_at_least(std::span<const std::vector<HalfSpace>> cones, std::size_t least);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

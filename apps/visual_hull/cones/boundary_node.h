@@ -3,7 +3,7 @@
 
 #include "nef/sphere_map/arrangement.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// Adds a selected svertex in the direction n_p x n_q to a drawing over the planes of a table; returns its number.
 inline std::uint32_t add_boundary_node(nef::Arrangement& drawing, const nef::PlaneTable& planes, nef::PlaneId p,
@@ -15,4 +15,4 @@ inline std::uint32_t add_boundary_node(nef::Arrangement& drawing, const nef::Pla
   return static_cast<std::uint32_t>(drawing.nodes.size() - 1);
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

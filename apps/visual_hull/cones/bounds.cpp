@@ -17,7 +17,7 @@
 #include "nef/geometry/monotone_chain.h"
 #include "nef/number/floor.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 // Beyond the numbers of a scene, in bits; what lies beyond the half of it is unbounded.
@@ -291,4 +291,4 @@ WorldBox loosen(const WorldBox& box) {
   return result;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -8,7 +8,7 @@
 
 #include "apps/visual_hull/cones/cone.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// A half-space normal . x + offset >= 0.
 using HalfSpace = RationalPlane;
@@ -32,4 +32,4 @@ Bounds bounds_of(const std::vector<HalfSpace>& half_spaces);
 /// A box with short numbers that contains `box` in its interior, larger by about a hundredth.
 WorldBox loosen(const WorldBox& box);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -23,7 +23,7 @@
 #include "nef/polyhedron.h"
 #include "nef/synthesis/complex_builder.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using nef::PlaneId;
@@ -273,4 +273,4 @@ nef::Polyhedron make_cone(const Camera& camera, const Silhouette& silhouette, co
   return builder.pyramid(camera, far);
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

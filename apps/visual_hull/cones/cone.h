@@ -7,7 +7,7 @@
 #include "apps/visual_hull/scene/world_box.h"
 #include "nef/forward.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// The range of depths of a box as a camera sees it.
 struct DepthRange {
@@ -24,4 +24,4 @@ DepthRange depth_range(const Camera& camera, const WorldBox& box);
 nef::Polyhedron make_cone(const Camera& camera, const Silhouette& silhouette, const WorldBox& box,
                           const nef::Monitor& monitor = {});
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

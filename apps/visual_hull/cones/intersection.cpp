@@ -8,7 +8,7 @@
 #include "nef/base/threads/parallel.h"
 #include "nef/polyhedron.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 // Of length one, or zero.
@@ -79,4 +79,4 @@ std::optional<std::size_t> vanishes_at(const std::vector<Part>& parts, const nef
   return std::nullopt;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

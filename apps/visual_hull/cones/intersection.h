@@ -10,7 +10,7 @@
 #include "apps/visual_hull/cones/cone.h"
 #include "nef/polyhedron.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// One operand of the intersection: what a view keeps.
 struct Part {
@@ -30,4 +30,4 @@ nef::Polyhedron intersect_parts(std::vector<Part> parts, const nef::Monitor& mon
 std::optional<std::size_t> vanishes_at(const std::vector<Part>& parts, const nef::Polyhedron& box, bool solid,
                                        const nef::Monitor& monitor);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

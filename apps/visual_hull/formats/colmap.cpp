@@ -21,7 +21,7 @@
 #include "nef/base/in_quotes.h"
 #include "nef/io/binary_cursor.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace fs = std::filesystem;
 
 namespace {
@@ -265,4 +265,4 @@ Scene read_colmap(const fs::path& model_folder) {
   return scene;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -3,7 +3,7 @@
 
 #include "apps/visual_hull/scene/scene.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// The folder of a COLMAP model at or below `folder`: itself, `sparse/0`, `sparse` or `0`. Nothing if there is none.
 std::optional<std::filesystem::path> colmap_model(const std::filesystem::path& folder);
@@ -14,4 +14,4 @@ std::optional<std::filesystem::path> colmap_model(const std::filesystem::path& f
 /// beside the folder `sparse` that holds it. Throws InputError. https://colmap.github.io/format.html
 Scene read_colmap(const std::filesystem::path& model);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

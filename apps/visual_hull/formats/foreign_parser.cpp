@@ -9,7 +9,7 @@
 #include "nef/base/error.h"
 #include "nef/io/bounded_process.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using nlohmann::json;
@@ -84,4 +84,4 @@ Scene read_with_limits(const std::filesystem::path& file, const std::string& par
                   file.string(), parser, nef::limits_text(limits)));
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -9,7 +9,7 @@
 
 #include "apps/visual_hull/scene/scene.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// Calls `read`, which asks another library (`parser` is its name, for messages) for the scene in `file`, in a process
 /// of its own (nef/io/bounded_process.h): damaged files make such libraries crash, or take memory and time without
@@ -18,4 +18,4 @@ namespace visual_hull {
 Scene read_with_limits(const std::filesystem::path& file, const std::string& parser, std::size_t bytes,
                        const std::function<Scene()>& read);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -12,7 +12,7 @@
 #include "apps/visual_hull/scene/pose.h"
 #include "nef/base/error.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using Matrix34d = Eigen::Matrix<double, 3, 4>;
@@ -137,4 +137,4 @@ Scene read_matlab(const std::filesystem::path& file, const std::string& variable
   return read_with_limits(file, "libmatio", ignored ? 0 : size, [&] { return scene_in(file.string(), variable); });
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

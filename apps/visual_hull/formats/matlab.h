@@ -3,7 +3,7 @@
 
 #include "apps/visual_hull/scene/scene.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// True if the bytes begin as a MATLAB file of version 5 does.
 bool is_matlab_file(const std::string& bytes);
@@ -14,4 +14,4 @@ bool is_matlab_file(const std::string& bytes);
 /// under limits (foreign_parser.h). Throws InputError.
 Scene read_matlab(const std::filesystem::path& file, const std::string& variable);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

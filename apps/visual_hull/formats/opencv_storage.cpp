@@ -21,7 +21,7 @@
 #include "nef/base/in_quotes.h"
 #include "nef/io/file_bytes.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using Matrix34d = Eigen::Matrix<double, 3, 4>;
@@ -382,4 +382,4 @@ Scene read_opencv_storage(const std::string& text, const std::filesystem::path& 
   });
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -3,7 +3,7 @@
 
 #include "apps/visual_hull/scene/scene.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// True if the text begins as a file of OpenCV's FileStorage does (YAML 1.0 or XML).
 bool is_opencv_storage(const std::string& text);
@@ -22,4 +22,4 @@ bool is_opencv_storage(const std::string& text);
 /// OpenCV. OpenCV parses the text under limits (foreign_parser.h). `file` is what messages call it. Throws InputError.
 Scene read_opencv_storage(const std::string& text, const std::filesystem::path& file, const std::string& matrices);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -11,7 +11,7 @@
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace fs = std::filesystem;
 
 namespace {
@@ -59,4 +59,4 @@ Scene read_scene(const fs::path& file, const ReadOptions& options) {
   return read_text_scene(text, file);
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

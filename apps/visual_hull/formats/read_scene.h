@@ -8,7 +8,7 @@
 
 #include "apps/visual_hull/scene/scene.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// What a file does not say itself.
 struct ReadOptions {
@@ -31,4 +31,4 @@ struct ReadOptions {
 /// Throws InputError.
 Scene read_scene(const std::filesystem::path& file, const ReadOptions& options = {});
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

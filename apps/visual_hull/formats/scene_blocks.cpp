@@ -15,7 +15,7 @@
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace fs = std::filesystem;
 
 namespace {
@@ -171,4 +171,4 @@ Scene read_camera_folder(const fs::path& folder) {
   return scene;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

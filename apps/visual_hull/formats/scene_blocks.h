@@ -3,7 +3,7 @@
 
 #include "apps/visual_hull/scene/scene.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// True if a text has a comment line that announces extrinsic parameters.
 bool has_parameter_blocks(const std::string& text);
@@ -21,4 +21,4 @@ Scene read_parameter_blocks(const std::string& text, const std::filesystem::path
 /// txt, calib or cameras. Throws InputError.
 Scene read_camera_folder(const std::filesystem::path& folder);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -13,7 +13,7 @@
 #include "nef/base/in_quotes.h"
 #include "nef/io/file_bytes.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using nlohmann::json;
@@ -190,4 +190,4 @@ Scene read_json_scene(const std::string& text, const std::filesystem::path& file
   return scene;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

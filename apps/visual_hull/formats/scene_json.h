@@ -5,7 +5,7 @@
 
 #include "apps/visual_hull/scene/scene.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// Reads a JSON scene:
 ///   {"cameras": [{"image": "a.png" or "silhouette": "a.json" or "polygons": [[[u, v], ...], ...],
@@ -19,4 +19,4 @@ Scene read_json_scene(const std::string& text, const std::filesystem::path& file
 /// Reads the polygons of one view: [[[u, v], ...], ...] or {"polygons": ...}. Throws InputError.
 std::vector<Ring> read_polygons(const std::filesystem::path& file);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -12,7 +12,7 @@
 #include "nef/base/error.h"
 #include "nef/base/in_quotes.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 struct Line {
@@ -175,4 +175,4 @@ Scene read_text_scene(const std::string& text, const std::filesystem::path& file
   return TextScene(text, file).read();
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

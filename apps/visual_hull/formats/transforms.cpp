@@ -16,7 +16,7 @@
 #include "nef/base/error.h"
 #include "nef/base/in_quotes.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using nlohmann::json;
@@ -171,4 +171,4 @@ Scene read_transforms(const json& document, const std::filesystem::path& file) {
   return scene;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

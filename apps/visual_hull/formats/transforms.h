@@ -5,7 +5,7 @@
 
 #include "apps/visual_hull/scene/scene.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// Reads the `transforms.json` of NeRF, instant-ngp and nerfstudio: `frames`, each with `transform_matrix` (camera to
 /// world, OpenGL's axes: x right, y up, z back), `file_path` (with or without an extension) and perhaps `mask_path`;
@@ -15,4 +15,4 @@ namespace visual_hull {
 /// https://docs.nerf.studio/quickstart/data_conventions.html
 Scene read_transforms(const nlohmann::json& document, const std::filesystem::path& file);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

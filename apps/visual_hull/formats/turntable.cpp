@@ -10,7 +10,7 @@
 #include "apps/visual_hull/scene/pose.h"
 #include "nef/base/error.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 Lens lens_of(const std::vector<double>& k) {
@@ -64,4 +64,4 @@ Scene guess_turntable(int count) {
   return scene;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

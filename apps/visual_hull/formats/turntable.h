@@ -3,7 +3,7 @@
 
 #include "apps/visual_hull/scene/scene.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// An object that turns before one camera, by the same angle between images.
 struct Turntable {
@@ -22,4 +22,4 @@ Scene make_turntable(const Turntable& turntable);
 /// those that Options::refine finds (Scene::guessed). Throws InputError for less than five or more than 100000.
 Scene guess_turntable(int count);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

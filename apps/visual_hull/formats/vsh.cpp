@@ -7,7 +7,7 @@
 #include "nef/geometry/vectors.h"
 #include "nef/io/text_cursor.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using nef::dot;
@@ -147,4 +147,4 @@ Scene read_vsh(const std::string& text, const std::filesystem::path& file) {
   return scene;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -5,7 +5,7 @@
 
 #include "apps/visual_hull/scene/scene.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// Reads a .vsh text: the room's smallest and largest corner; the number of cameras; per camera its
 /// centre, the number of polygons, and per polygon the number of points and the points, all of one
@@ -14,4 +14,4 @@ namespace visual_hull {
 /// of the three coordinates are u and v. Throws InputError.
 Scene read_vsh(const std::string& text, const std::filesystem::path& file);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

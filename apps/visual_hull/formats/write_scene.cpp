@@ -10,7 +10,7 @@
 
 #include "nef/io/file_bytes.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 // A double has at most 1074 digits behind the point, and 309 before it.
@@ -101,4 +101,4 @@ void write_scene_file(const std::filesystem::path& file, Scene scene) {
   nef::write_file(file.string(), write_scene_json(scene));
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -19,7 +19,7 @@
 #include "apps/visual_hull/silhouette/silhouette.h"
 #include "nef/base/threads/parallel.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using refine::MovingCamera;
@@ -188,4 +188,4 @@ std::vector<std::string> change_lines(const std::vector<PhotographedView>& views
   return lines;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -11,7 +11,7 @@
 #include "apps/visual_hull/scene/scene.h"
 #include "nef/base/monitor.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// A photograph with its camera.
 struct PhotographedView {
@@ -43,4 +43,4 @@ std::vector<MaskChange> repair_masks(const std::vector<PhotographedView>& views,
 std::vector<std::string> change_lines(const std::vector<PhotographedView>& views,
                                       const std::vector<MaskChange>& changes);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -3,7 +3,7 @@
 
 #include "nef/base/threads/parallel.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 constexpr int kVoteSide = 128;
@@ -50,4 +50,4 @@ Votes vote(const std::vector<refine::MovingCamera>& cameras,
   return votes;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -13,7 +13,7 @@
 #include "apps/visual_hull/refine/outline.h"
 #include "nef/base/monitor.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// A point of a grid, and the views that exclude it.
 struct VotedPoint {
@@ -42,4 +42,4 @@ Votes vote(const std::vector<refine::MovingCamera>& cameras,
            const std::vector<std::optional<refine::Outline>>& outlines, const refine::Ball& ball, double margin,
            const nef::Monitor& monitor);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -21,7 +21,7 @@
 #include "nef/base/error.h"
 #include "nef/base/threads/parallel.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 namespace fs = std::filesystem;
@@ -226,4 +226,4 @@ CutOuts cut_out(const Photographs& photographs, const MaskMethod& method, const 
   return result;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -12,7 +12,7 @@
 #include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// The masks of a series.
 struct CutOuts {
@@ -31,4 +31,4 @@ struct CutOuts {
 CutOuts cut_out(const std::vector<std::filesystem::path>& photographs, const MaskMethod& method,
                 const nef::Monitor& monitor = {});
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -7,7 +7,7 @@
 #include "apps/visual_hull/masks/measures.h"
 #include "apps/visual_hull/masks/separation.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 constexpr int kRoundsOfRectangle = 5;
@@ -71,4 +71,4 @@ cv::Mat cut_in_rectangle(const cv::Mat& picture, const cv::Rect& given) {
   return object_above(cut_by_seeds(picture, seeds_of(mask, 3 / scale, 3 / scale)), 127);
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

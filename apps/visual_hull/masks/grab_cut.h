@@ -5,7 +5,7 @@
 
 #include <opencv2/core.hpp>
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// The object in a rectangle of a picture (three channels of 8 bits), whose outside is background. Large pictures are
 /// cut at 800 pixels first and then in a band along that outline. 255 where the object is; the same for the same input.
@@ -15,4 +15,4 @@ cv::Mat cut_in_rectangle(const cv::Mat& picture, const cv::Rect& rectangle);
 /// of both kinds likely ones are what they are likely to be. 255 where the object is; the same for the same input.
 cv::Mat cut_by_seeds(const cv::Mat& picture, const cv::Mat& seeds);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

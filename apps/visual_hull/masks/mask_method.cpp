@@ -8,7 +8,7 @@
 #include "nef/base/error.h"
 #include "nef/base/in_quotes.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
@@ -85,4 +85,4 @@ MaskMethod parse_mask_method(const std::string& text) {
   return method;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

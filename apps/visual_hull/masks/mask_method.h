@@ -11,7 +11,7 @@
 
 #include "apps/visual_hull/scene/scene.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// A method, as `--mask` names it.
 struct MaskMethod {
@@ -29,4 +29,4 @@ struct MaskMethod {
 /// "key:NAME" of a colour, or "grabcut[:X,Y,WIDTH,HEIGHT]". Throws InputError.
 MaskMethod parse_mask_method(const std::string& text);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

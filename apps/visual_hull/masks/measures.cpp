@@ -10,7 +10,7 @@
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 /// Brightness of the same colour, as a factor.
@@ -104,4 +104,4 @@ cv::Mat read_picture(const std::filesystem::path& file, int longest) {
   return picture;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

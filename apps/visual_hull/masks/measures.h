@@ -11,7 +11,7 @@
 
 #include "apps/visual_hull/masks/mask_method.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// From a picture (three channels of 8 bits: blue, green, red) to one channel of 8 bits, larger for the object.
 struct Measure {
@@ -42,4 +42,4 @@ inline constexpr int kLongestCopy = 800;
 /// positive. Throws InputError if it cannot be read.
 cv::Mat read_picture(const std::filesystem::path& file, int longest = 0);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 constexpr float kNear = 2;
@@ -129,4 +129,4 @@ Separation fitted_separation(const cv::Mat& measure) {
   return found;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

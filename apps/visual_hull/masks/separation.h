@@ -6,7 +6,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// The object among the pixels above a level: the largest component (by sides) that does not touch the frame of the
 /// image, or the largest of all if no such one has a quarter of its area; holes of fewer pixels than 1/2000 of the
@@ -32,4 +32,4 @@ Separation fitted_separation(const cv::Mat& measure);
 /// The median of a list that is not empty; of an even number of values the upper one of the middle.
 double median_of(std::vector<double> values);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// A rectangle low..high of doubles.
 struct Rectangle {
@@ -94,4 +94,4 @@ class EdgeGrid {
   std::uint64_t stamp_ = 0;
 };
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -12,7 +12,7 @@
 #include "nef/geometry/box_tree.h"
 #include "nef/number/brief_text.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 struct Edge {
@@ -253,4 +253,4 @@ std::string check(const Silhouette& silhouette, const nef::Monitor& monitor) {
   return problem;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

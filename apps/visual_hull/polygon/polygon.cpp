@@ -13,7 +13,7 @@
 #include "nef/base/fast_path.h"
 #include "nef/number/approximation.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 // v == k 2^-8 and |v| < 2^16: 24 bits, so differences have 25 and products 50.
@@ -177,4 +177,4 @@ Side locate(const Silhouette& silhouette, const Point2& point, const nef::Monito
   return inside ? Side::kInside : Side::kOutside;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -11,7 +11,7 @@
 #include "nef/base/monitor.h"
 #include "nef/number/number.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 using nef::Integer;
 using nef::Rational;
@@ -104,4 +104,4 @@ std::string first_crossing(const std::vector<Ring>& rings, const nef::Monitor& m
 /// that is wrong. O(n log n) on ordinary input.
 std::string check(const Silhouette& silhouette, const nef::Monitor& monitor = {});
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

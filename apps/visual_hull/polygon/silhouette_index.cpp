@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 SilhouetteIndex::SilhouetteIndex(const Silhouette& silhouette) {
   std::vector<nef::Box> boxes;
@@ -42,4 +42,4 @@ Side SilhouetteIndex::locate(const Point2& point, const nef::Monitor& monitor) c
   return inside ? Side::kInside : Side::kOutside;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

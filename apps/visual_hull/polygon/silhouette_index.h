@@ -7,7 +7,7 @@
 #include "apps/visual_hull/polygon/polygon.h"
 #include "nef/geometry/box_tree.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// Holds a reference to the silhouette.
 class SilhouetteIndex {
@@ -31,4 +31,4 @@ class SilhouetteIndex {
   nef::BoxTree tree_;
 };
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

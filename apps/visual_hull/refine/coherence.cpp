@@ -12,7 +12,7 @@
 
 #include "nef/base/threads/parallel.h"
 
-namespace visual_hull::refine {
+namespace nef::visual_hull::refine {
 namespace {
 
 constexpr int kDepths = 64;
@@ -301,4 +301,4 @@ ResidualSummary summary(const std::vector<Outline>& outlines, const std::vector<
   return result;
 }
 
-}  // namespace visual_hull::refine
+}  // namespace nef::visual_hull::refine

@@ -13,7 +13,7 @@
 #include "apps/visual_hull/refine/outline.h"
 #include "nef/base/monitor.h"
 
-namespace visual_hull::refine {
+namespace nef::visual_hull::refine {
 
 /// Where the object is: rays are searched in a ball.
 struct Ball {
@@ -86,4 +86,4 @@ struct ResidualSummary {
 ResidualSummary summary(const std::vector<Outline>& outlines, const std::vector<std::vector<Coherence>>& values,
                         const std::vector<std::uint8_t>& used, Pieces pieces);
 
-}  // namespace visual_hull::refine
+}  // namespace nef::visual_hull::refine

@@ -13,7 +13,7 @@
 #include "nef/base/error.h"
 #include "nef/base/threads/parallel.h"
 
-namespace visual_hull::refine {
+namespace nef::visual_hull::refine {
 namespace {
 
 constexpr std::size_t kFewest = 5;
@@ -117,4 +117,4 @@ std::vector<MovingCamera> find_turntable(const std::vector<Outline>& outlines, c
   return fit(ends[best], outlines, options, monitor);
 }
 
-}  // namespace visual_hull::refine
+}  // namespace nef::visual_hull::refine

@@ -9,7 +9,7 @@
 #include "apps/visual_hull/refine/outline.h"
 #include "nef/base/monitor.h"
 
-namespace visual_hull::refine {
+namespace nef::visual_hull::refine {
 
 /// The cameras of one full turn in equal steps, as views of `outlines` in their order, to be refined further: the
 /// object turns about the z axis, counterclockwise seen from above or clockwise, whichever fits; the camera stands at
@@ -19,4 +19,4 @@ namespace visual_hull::refine {
 std::vector<MovingCamera> find_turntable(const std::vector<Outline>& outlines, const ImageSize& size,
                                          PixelOrigin origin, const nef::Monitor& monitor);
 
-}  // namespace visual_hull::refine
+}  // namespace nef::visual_hull::refine

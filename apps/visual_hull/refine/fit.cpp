@@ -8,7 +8,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-namespace visual_hull::refine {
+namespace nef::visual_hull::refine {
 namespace {
 
 constexpr double kPrior = 1.0 / 300;  // pixels of residual for a pixel of motion
@@ -322,4 +322,4 @@ MovingCamera resect(const std::vector<MovingCamera>& cameras, const std::vector<
   return earned ? now[view] : cameras[view];
 }
 
-}  // namespace visual_hull::refine
+}  // namespace nef::visual_hull::refine

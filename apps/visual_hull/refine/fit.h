@@ -11,7 +11,7 @@
 #include "apps/visual_hull/refine/coherence.h"
 #include "apps/visual_hull/refine/turntable_axis.h"
 
-namespace visual_hull::refine {
+namespace nef::visual_hull::refine {
 
 /// What may move, from few parameters to many.
 enum class Model : std::uint8_t {
@@ -73,4 +73,4 @@ std::vector<MovingCamera> fit(const std::vector<MovingCamera>& start, const std:
 MovingCamera resect(const std::vector<MovingCamera>& cameras, const std::vector<Outline>& outlines,
                     const std::vector<std::uint8_t>& used, std::size_t view, const nef::Monitor& monitor);
 
-}  // namespace visual_hull::refine
+}  // namespace nef::visual_hull::refine

@@ -9,7 +9,7 @@
 
 #include "apps/visual_hull/scene/pose.h"
 
-namespace visual_hull::refine {
+namespace nef::visual_hull::refine {
 
 Eigen::Matrix3d rotation_by(const Eigen::Vector3d& v) {
   const double angle = v.norm();
@@ -162,4 +162,4 @@ std::vector<Eigen::Vector3d> ball_points(const Eigen::Vector3d& centre, double r
   return points;
 }
 
-}  // namespace visual_hull::refine
+}  // namespace nef::visual_hull::refine

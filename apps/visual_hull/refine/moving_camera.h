@@ -8,7 +8,7 @@
 
 #include "apps/visual_hull/scene/camera.h"
 
-namespace visual_hull::refine {
+namespace nef::visual_hull::refine {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix26 = Eigen::Matrix<double, 2, 6>;
@@ -94,4 +94,4 @@ double image_distance(const MovingCamera& a, const MovingCamera& b, const std::v
 /// Corners and centres of the sides of a cube within the ball around a point: points to measure motions by.
 std::vector<Eigen::Vector3d> ball_points(const Eigen::Vector3d& centre, double radius);
 
-}  // namespace visual_hull::refine
+}  // namespace nef::visual_hull::refine

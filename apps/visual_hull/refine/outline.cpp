@@ -11,7 +11,7 @@
 
 #include "apps/visual_hull/silhouette/lens.h"
 
-namespace visual_hull::refine {
+namespace nef::visual_hull::refine {
 namespace {
 
 constexpr double kMargin = 6;         // nodes around the silhouette
@@ -215,4 +215,4 @@ Outline make_outline(const Silhouette& silhouette, const ImageSize& frame, const
   return outline;
 }
 
-}  // namespace visual_hull::refine
+}  // namespace nef::visual_hull::refine

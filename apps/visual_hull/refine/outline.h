@@ -9,7 +9,7 @@
 #include "apps/visual_hull/polygon/polygon.h"
 #include "apps/visual_hull/scene/scene.h"
 
-namespace visual_hull::refine {
+namespace nef::visual_hull::refine {
 
 /// A smooth signed distance to the border of a silhouette, in pixels: positive inside. The staircase of pixels is
 /// blurred away (a Gaussian of one pixel). Where the frame of the image cuts the silhouette, the distance goes on
@@ -59,4 +59,4 @@ struct Outline {
 Outline make_outline(const Silhouette& silhouette, const ImageSize& frame, const Distortion& lens, PixelOrigin origin,
                      std::size_t count);
 
-}  // namespace visual_hull::refine
+}  // namespace nef::visual_hull::refine

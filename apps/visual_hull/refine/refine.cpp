@@ -15,7 +15,7 @@
 #include "nef/base/error.h"
 #include "nef/base/threads/parallel.h"
 
-namespace visual_hull::refine {
+namespace nef::visual_hull::refine {
 namespace {
 
 constexpr double kLeastGain = 0.05;  // pixels of the mean residual of held-out pieces
@@ -433,4 +433,4 @@ Refinement refine_cameras(const std::vector<GivenView>& views, const RefineOptio
   return result;
 }
 
-}  // namespace visual_hull::refine
+}  // namespace nef::visual_hull::refine

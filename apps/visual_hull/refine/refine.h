@@ -11,7 +11,7 @@
 #include "apps/visual_hull/refine/fit.h"
 #include "apps/visual_hull/scene/scene.h"
 
-namespace visual_hull::refine {
+namespace nef::visual_hull::refine {
 
 /// A view as it is given.
 struct GivenView {
@@ -71,4 +71,4 @@ struct RefineOptions {
 Refinement refine_cameras(const std::vector<GivenView>& views, const RefineOptions& options,
                           const nef::Monitor& monitor);
 
-}  // namespace visual_hull::refine
+}  // namespace nef::visual_hull::refine

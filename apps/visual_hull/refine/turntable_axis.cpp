@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace visual_hull::refine {
+namespace nef::visual_hull::refine {
 
 std::optional<Axis> turntable_axis(const std::vector<MovingCamera>& cameras, double angle, double share) {
   constexpr std::size_t kFewest = 5;
@@ -133,4 +133,4 @@ std::optional<std::vector<MovingCamera>> as_turntable(const std::vector<MovingCa
   return result;
 }
 
-}  // namespace visual_hull::refine
+}  // namespace nef::visual_hull::refine

@@ -9,7 +9,7 @@
 
 #include "apps/visual_hull/refine/moving_camera.h"
 
-namespace visual_hull::refine {
+namespace nef::visual_hull::refine {
 
 /// A line in space.
 struct Axis {
@@ -26,4 +26,4 @@ std::optional<Axis> turntable_axis(const std::vector<MovingCamera>& cameras, dou
 std::optional<std::vector<MovingCamera>> as_turntable(const std::vector<MovingCamera>& cameras, const Axis& axis,
                                                       bool even);
 
-}  // namespace visual_hull::refine
+}  // namespace nef::visual_hull::refine

@@ -6,7 +6,7 @@
 
 #include "nef/base/error.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 // A new coordinate is an old one, perhaps with the other sign.
@@ -54,4 +54,4 @@ Camera moved(const Camera& camera, const Rational3& shift) {
   return {camera.name(), m};
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -5,7 +5,7 @@
 
 #include "apps/visual_hull/scene/scene.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// Turns space by quarter turns so that `up` ("x", "-y", ...) becomes +z: the cameras and the box. Exact. Throws
 /// InputError for anything else.
@@ -14,4 +14,4 @@ void turn_up(Scene& scene, const std::string& up);
 /// The camera of space moved by -shift: what it sees at X it saw at X + shift. Exact.
 Camera moved(const Camera& camera, const Rational3& shift);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

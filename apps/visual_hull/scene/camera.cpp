@@ -3,7 +3,7 @@
 
 #include "nef/base/error.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 Rational cofactor(const Matrix34& m, std::size_t row, std::size_t column) {
@@ -122,4 +122,4 @@ RationalPlane plane_at_depth(const Camera& camera, const Rational& s) {
   return {camera.axis(), camera.is_parallel() ? Rational(-s) : Rational(camera.matrix()[2][3] - s)};
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -9,7 +9,7 @@
 
 #include "apps/visual_hull/polygon/polygon.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 using Matrix3 = std::array<Rational3, 3>;
 using Matrix34 = std::array<std::array<Rational, 4>, 3>;
@@ -88,4 +88,4 @@ RationalPlane plane_through(const Camera& camera, const Point2& a, const Point2&
 /// The points of depth s; deeper ones are on the positive side.
 RationalPlane plane_at_depth(const Camera& camera, const Rational& s);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

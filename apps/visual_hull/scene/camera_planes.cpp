@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/visual_hull/scene/camera_planes.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 // Numerators over the (positive) least common denominator.
@@ -57,4 +57,4 @@ std::array<Integer, 4> CameraPlanes::through(const Point2& a, const Point2& b) c
   return plane;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

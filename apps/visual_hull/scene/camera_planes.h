@@ -5,7 +5,7 @@
 
 #include "apps/visual_hull/scene/camera.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// The planes of one camera, in integers: as plane_through, but for a positive factor, and some twenty times as fast
 /// where image points are on the lattice. Keeps a reference to the camera.
@@ -21,4 +21,4 @@ class CameraPlanes {
   std::array<std::array<Integer, 4>, 3> matrix_;  // times a common denominator
 };
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -24,7 +24,7 @@
 #include "nef/io/bounded_process.h"
 #include "nef/io/file_bytes.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 constexpr std::size_t kMostBytes = std::size_t{2} << 30U;  // of pixels: far more than any camera gives
@@ -180,4 +180,4 @@ cv::Mat read_colors(const std::filesystem::path& file) {
   cv::cvtColor(image, image, image.channels() == 1 ? cv::COLOR_GRAY2BGR : cv::COLOR_BGRA2BGR);
   return image;
 }
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

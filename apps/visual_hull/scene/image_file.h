@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <opencv2/core.hpp>
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// The pixels of a file as it stores them, with one channel, three (blue, green, red) or four, as
 /// cv::imread(IMREAD_UNCHANGED) gives them. Empty if they cannot be read, or take more than 2 GiB.
@@ -18,4 +18,4 @@ cv::Mat read_pixels(const std::filesystem::path& file);
 /// The same with eight bits and three channels, whatever the file stores.
 cv::Mat read_colors(const std::filesystem::path& file);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -16,7 +16,7 @@
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace fs = std::filesystem;
 
 namespace {
@@ -169,4 +169,4 @@ std::optional<ImageSize> size_of_image(const fs::path& folder, const std::string
   return ImageSize{image.cols, image.rows};
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

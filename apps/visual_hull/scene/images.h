@@ -11,7 +11,7 @@
 #include "apps/visual_hull/scene/scene.h"
 #include "nef/construct/construct.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// The folder in which the images of a scene are looked up: the scene itself if it is one.
 std::filesystem::path scene_folder(const std::filesystem::path& scene);
@@ -42,4 +42,4 @@ std::vector<std::filesystem::path> images_of(const Scene& scene, const std::file
 /// The size of an image that a scene calls `name`, if it is there and can be read.
 std::optional<ImageSize> size_of_image(const std::filesystem::path& folder, const std::string& name);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -48,4 +48,4 @@ bool naturally_before(std::string_view a, std::string_view b) {
   return zeros > 0;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -7,7 +7,7 @@
 #include "apps/visual_hull/scene/axes.h"
 #include "apps/visual_hull/scene/understanding.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 Place place_of(const std::vector<Camera>& cameras) {
   Place place;
@@ -28,4 +28,4 @@ Place place_of(const std::vector<Camera>& cameras) {
   return place;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -6,7 +6,7 @@
 #include "apps/visual_hull/scene/camera.h"
 #include "apps/visual_hull/scene/world_box.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// Space moved so that the scene lies about the origin, where doubles have digits to spare: at UTM coordinates the
 /// filters of predicates fail thousands of times.
@@ -35,4 +35,4 @@ struct Place {
 /// Moves cameras that are farther from the origin than from what they look at. Exact.
 Place place_of(const std::vector<Camera>& cameras);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -7,7 +7,7 @@
 #include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 Eigen::Matrix3d Lens::matrix() const {
   Eigen::Matrix3d k;
@@ -70,4 +70,4 @@ Eigen::Matrix<double, 3, 4> to_doubles(const Camera& camera) {
   return m;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

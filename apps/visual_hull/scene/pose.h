@@ -10,7 +10,7 @@
 
 #include "apps/visual_hull/scene/scene.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// Intrinsics in pixels, distortion as in `Distortion`.
 struct Lens {
@@ -41,4 +41,4 @@ Pose from_opengl(const Eigen::Matrix4d& camera_to_world);
 /// A camera's matrix as doubles.
 Eigen::Matrix<double, 3, 4> to_doubles(const Camera& camera);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -7,7 +7,7 @@
 #include "nef/base/in_quotes.h"
 #include "nef/base/word_list.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 ThresholdOptions parse_threshold(const std::string& text) {
   ThresholdOptions options;
@@ -37,4 +37,4 @@ ThresholdOptions::Channel parse_channel(const std::string& text) {
   return static_cast<ThresholdOptions::Channel>(found - names.begin());
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -12,7 +12,7 @@
 #include "apps/visual_hull/scene/camera.h"
 #include "apps/visual_hull/scene/world_box.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// How pixels become object or background.
 struct ThresholdOptions {
@@ -82,4 +82,4 @@ struct Scene {
   std::vector<std::string> ignored;  ///< names in the file that mean nothing to it, in their order
 };
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -6,7 +6,7 @@
 #include "nef/base/error.h"
 #include "nef/base/in_quotes.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 [[noreturn]] void too_large(const std::string& where, const std::string& number) {
@@ -42,4 +42,4 @@ nef::Rational scene_number(std::string_view word, const std::string& where, cons
   return *std::move(value);
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -8,7 +8,7 @@
 
 #include "nef/number/number.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// No number of a scene may be larger: products of five of them are doubles still, which is what filters and
 /// displays multiply.
@@ -26,4 +26,4 @@ nef::Rational scene_number(std::string_view word, const std::string& where, cons
 void check_size(const nef::Rational& value, const std::string& where);
 void check_size(double value, const std::string& where);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -14,7 +14,7 @@
 #include "apps/visual_hull/scene/pose.h"
 #include "nef/base/in_quotes.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 struct Range {
@@ -185,4 +185,4 @@ std::vector<std::string> view_lines(const Scene& scene, const std::vector<std::f
   return lines;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -10,7 +10,7 @@
 
 #include "apps/visual_hull/scene/scene.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// Where a camera stands and looks, in doubles.
 struct Sight {
@@ -34,4 +34,4 @@ std::string understood(const Scene& scene);
 /// looks and the one to the common point.
 std::vector<std::string> view_lines(const Scene& scene, const std::vector<std::filesystem::path>& images);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -6,7 +6,7 @@
 #include "nef/base/error.h"
 #include "nef/number/brief_text.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 using nef::Rational;
 
@@ -30,4 +30,4 @@ WorldBox parse_box(const std::string& text) {
   return box;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

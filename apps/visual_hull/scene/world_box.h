@@ -5,7 +5,7 @@
 
 #include "nef/number/number.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// A closed box in world units.
 struct WorldBox {
@@ -18,4 +18,4 @@ WorldBox parse_box(const std::string& text);
 /// Checks that the box has a volume. Throws InputError with `where` in front.
 void check_box(const WorldBox& box, const std::string& where);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -6,7 +6,7 @@
 
 #include "nef/base/error.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using Channel = ThresholdOptions::Channel;
@@ -109,4 +109,4 @@ cv::Mat pick_channel(const cv::Mat& image, Channel channel) {
   return {};
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -7,7 +7,7 @@
 
 #include "apps/visual_hull/scene/scene.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// The largest value that pixels of this depth (CV_8U, ...) have by convention: 255, ..., 1 for floating point.
 double full_scale(int depth);
@@ -16,4 +16,4 @@ double full_scale(int depth);
 /// InputError if it has no such channel. O(pixels).
 cv::Mat pick_channel(const cv::Mat& image, ThresholdOptions::Channel channel);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -10,7 +10,7 @@
 #include <cstring>
 #include <opencv2/imgproc.hpp>
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 // Directions +u, +v, -u, -v: bit d of a corner says that a side leaves it in direction d.
@@ -204,4 +204,4 @@ bool touches_frame(const cv::Mat& mask) {
          cv::countNonZero(mask.col(0)) > 0 || cv::countNonZero(mask.col(mask.cols - 1)) > 0;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

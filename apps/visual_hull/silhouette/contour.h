@@ -8,7 +8,7 @@
 #include "apps/visual_hull/polygon/polygon.h"
 #include "apps/visual_hull/scene/scene.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// What becomes of a corner in which two pixels of the object meet that have no side in common.
 enum class DiagonalPixels : std::uint8_t {
@@ -26,4 +26,4 @@ Silhouette trace_contours(const cv::Mat& mask, PixelOrigin origin, DiagonalPixel
 /// True if a pixel of the mask on the frame of the image is set.
 bool touches_frame(const cv::Mat& mask);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

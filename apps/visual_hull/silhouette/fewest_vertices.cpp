@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using Vec = std::array<double, 2>;
@@ -143,4 +143,4 @@ std::vector<bool> fewest_vertices(const Ring& ring, const std::vector<bool>& pin
   return keep;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

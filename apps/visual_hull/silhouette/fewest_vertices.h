@@ -5,7 +5,7 @@
 
 #include "apps/visual_hull/polygon/polygon.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// Distance of a point from a segment, in double precision.
 double distance_to_segment(const std::array<double, 2>& p, const std::array<double, 2>& a,
@@ -19,4 +19,4 @@ double distance_to_segment(const std::array<double, 2>& p, const std::array<doub
 /// span up to w vertices.
 std::vector<bool> fewest_vertices(const Ring& ring, const std::vector<bool>& pinned, double tolerance);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -11,7 +11,7 @@
 
 #include "nef/base/error.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 // The homography of OpenCV's tilted sensor: the rotations about x and y, and the projection back along z.
@@ -185,4 +185,4 @@ Silhouette straighten(const Silhouette& traced, const Distortion& distortion, co
   return result;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -10,7 +10,7 @@
 #include "apps/visual_hull/polygon/polygon.h"
 #include "apps/visual_hull/scene/scene.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// OpenCV's model of a lens, in doubles: radial (rational), tangential, thin prism and tilt.
 class LensModel {
@@ -44,4 +44,4 @@ class LensModel {
 Silhouette straighten(const Silhouette& traced, const Distortion& distortion, const std::string& view,
                       std::optional<std::size_t> frame, const nef::Monitor& monitor);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

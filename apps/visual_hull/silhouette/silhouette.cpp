@@ -18,7 +18,7 @@
 #include "apps/visual_hull/silhouette/lens.h"
 #include "nef/base/error.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 cv::Mat default_mask(const cv::Mat& image, ThresholdOptions::Channel channel) {
@@ -185,4 +185,4 @@ ViewSilhouette silhouette_of_polygons(const std::vector<Ring>& polygons, const s
   return result;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -11,7 +11,7 @@
 #include "apps/visual_hull/silhouette/contour.h"
 #include "apps/visual_hull/silhouette/simplify.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// What a silhouette that is cut by the frame of the image says about the space beyond it.
 enum class Border {
@@ -61,4 +61,4 @@ ViewSilhouette silhouette_of_mask(const cv::Mat& mask, const Distortion& lens, c
 ViewSilhouette silhouette_of_polygons(const std::vector<Ring>& polygons, const std::string& view,
                                       const SilhouetteOptions& options, const nef::Monitor& monitor = {});
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

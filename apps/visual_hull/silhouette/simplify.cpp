@@ -32,7 +32,7 @@
 #include "apps/visual_hull/silhouette/fewest_vertices.h"
 #include "nef/base/error.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using Vec = std::array<double, 2>;
@@ -490,4 +490,4 @@ Silhouette simplify(const Silhouette& silhouette, const SimplifyOptions& options
   }
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -5,7 +5,7 @@
 
 #include "apps/visual_hull/polygon/polygon.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// How silhouettes are simplified.
 struct SimplifyOptions {
@@ -22,4 +22,4 @@ struct SimplifyOptions {
 /// O(n log n) for n vertices of ordinary contours, with a chain of length O(tolerance) per vertex.
 Silhouette simplify(const Silhouette& silhouette, const SimplifyOptions& options, const nef::Monitor& monitor = {});
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -21,7 +21,7 @@
 #include "apps/visual_hull/verify/sight_lines.h"
 #include "nef/base/threads/parallel.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 constexpr std::size_t kMostRays = 300;     // of a view; more change nothing
@@ -354,4 +354,4 @@ std::vector<std::vector<std::size_t>> disjoint_views(const std::vector<ComparedV
   return {};
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

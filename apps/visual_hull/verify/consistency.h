@@ -8,7 +8,7 @@
 
 #include "apps/visual_hull/cones/cone.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// One view to compare. Refers to its parts.
 struct ComparedView {
@@ -49,4 +49,4 @@ Consistency compare_views(const std::vector<ComparedView>& views, const WorldBox
 std::vector<std::vector<std::size_t>> disjoint_views(const std::vector<ComparedView>& views, const WorldBox& box,
                                                      std::size_t most, const nef::Monitor& monitor);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

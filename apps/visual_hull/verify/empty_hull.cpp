@@ -6,7 +6,7 @@
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using Indices = std::vector<std::size_t>;
@@ -88,4 +88,4 @@ std::vector<Indices> views_without_common_point(const std::vector<ComparedView>&
   return confirmed;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

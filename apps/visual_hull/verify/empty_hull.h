@@ -7,7 +7,7 @@
 
 #include "apps/visual_hull/verify/consistency.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// Sets of views whose cones have no point in common in `box`, confirmed exactly. Smallest ones, at most `most`, where
 /// up to four views are enough; else one from which no view can be left out. Empty if all cones have a common point
@@ -16,4 +16,4 @@ std::vector<std::vector<std::size_t>> views_without_common_point(const std::vect
                                                                  const WorldBox& box, std::size_t most,
                                                                  const nef::Monitor& monitor);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -11,7 +11,7 @@
 
 #include "apps/visual_hull/scene/pose.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 constexpr std::size_t kBins = 1024;             // of half a turn
@@ -205,4 +205,4 @@ DepthInterval in_box(const Eigen::Vector3d& centre, const Eigen::Vector3d& direc
   return range;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -10,7 +10,7 @@
 #include "apps/visual_hull/cones/cone.h"
 #include "apps/visual_hull/verify/consistency.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// A part of a line of sight, by depth.
 struct DepthInterval {
@@ -81,4 +81,4 @@ class SightPencil {
 DepthInterval in_box(const Eigen::Vector3d& centre, const Eigen::Vector3d& direction, const Eigen::Vector3d& low,
                      const Eigen::Vector3d& high);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

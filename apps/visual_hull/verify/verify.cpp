@@ -11,7 +11,7 @@
 #include "apps/visual_hull/verify/verify_inside.h"
 #include "nef/polyhedron.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using Vec = std::array<double, 2>;
@@ -180,4 +180,4 @@ Verification verify_view(const nef::Polyhedron& hull, const Camera& camera, cons
   return result;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

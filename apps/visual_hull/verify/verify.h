@@ -9,7 +9,7 @@
 #include "apps/visual_hull/scene/camera.h"
 #include "nef/forward.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 struct Verification {
   bool inside = false;         ///< exact: the hull's projection lies in the silhouette
@@ -37,4 +37,4 @@ Verification verify_view(const nef::Polyhedron& hull, const Camera& camera, cons
 std::vector<std::vector<std::vector<std::array<double, 2>>>> project_facets(const nef::Polyhedron& hull,
                                                                             const Camera& camera);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -14,7 +14,7 @@
 #include "apps/visual_hull/scene/camera_planes.h"
 #include "nef/polyhedron.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 struct Projected {
@@ -297,4 +297,4 @@ std::string why_outside(const nef::Polyhedron& hull, const Camera& camera, const
   return InsideCheck(hull, camera, silhouette, monitor).run();
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -6,10 +6,10 @@
 #include "apps/visual_hull/scene/camera.h"
 #include "nef/forward.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// Exact: what of the hull does not project into the silhouette; empty if nothing. See verify_view.
 std::string why_outside(const nef::Polyhedron& hull, const Camera& camera, const Silhouette& silhouette,
                         const nef::Monitor& monitor);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

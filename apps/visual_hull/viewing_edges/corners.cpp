@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 std::optional<std::uint32_t> corner_of(const SpotName& name, std::span<const ViewingEdge> edges) {
   for (const std::uint32_t out : name) {
@@ -33,4 +33,4 @@ std::uint32_t next_incoming(std::uint32_t out, std::span<const std::uint32_t> in
   return *std::min_element(incoming.begin(), incoming.end(), before);
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -8,7 +8,7 @@
 
 #include "apps/visual_hull/viewing_edges/edge_view.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// The edge that starts at the vertex of a silhouette on whose ray the named point lies; nothing if three views meet
 /// there.
@@ -19,4 +19,4 @@ std::optional<std::uint32_t> corner_of(const SpotName& name, std::span<const Vie
 std::uint32_t next_incoming(std::uint32_t out, std::span<const std::uint32_t> incoming,
                             std::span<const ViewingEdge> edges, const nef::Monitor& monitor);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

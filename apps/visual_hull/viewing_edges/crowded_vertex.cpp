@@ -5,7 +5,7 @@
 
 #include "apps/visual_hull/viewing_edges/corners.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 CrowdedPyramids::CrowdedPyramids(std::span<const ViewingEdge> edges, const nef::PlaneTable& planes,
                                  const nef::Monitor& monitor, std::function<nef::PlaneId(std::uint32_t)> plane)
@@ -68,4 +68,4 @@ void CrowdedPyramids::combine(nef::SphereMapBuffer& result, const nef::SphereMap
   std::swap(result, scratch_);
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

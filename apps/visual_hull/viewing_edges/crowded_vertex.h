@@ -10,7 +10,7 @@
 #include "nef/base/monitor.h"
 #include "nef/sphere_map/overlay.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// A point of the hull that lies on the planes of more than three edges, or of three in special position: perhaps a
 /// vertex.
@@ -45,4 +45,4 @@ class CrowdedPyramids {
   nef::SphereMapBuffer scratch_;
 };
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

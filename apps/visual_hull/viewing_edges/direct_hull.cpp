@@ -11,7 +11,7 @@
 #include "nef/base/threads/shared_out.h"
 #include "nef/polyhedron.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using FacetLine = std::uint64_t;  // of the planes of two edges
@@ -80,4 +80,4 @@ std::optional<nef::Polyhedron> direct_hull(const std::vector<DirectView>& views,
   return complex_of(*vertices, scene->edges, cameras, monitor);
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -9,7 +9,7 @@
 
 #include "apps/visual_hull/cones/cone.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// One view of the direct way.
 struct DirectView {
@@ -27,4 +27,4 @@ struct DirectView {
 std::optional<nef::Polyhedron> direct_hull(const std::vector<DirectView>& views, const WorldBox& box,
                                            const nef::Monitor& monitor);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

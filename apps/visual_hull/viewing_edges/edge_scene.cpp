@@ -5,7 +5,7 @@
 
 #include "nef/base/threads/parallel.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 namespace {
 
@@ -79,4 +79,4 @@ std::optional<ExactPoint> EdgeScene::exact(const SpotName& name) const {
   return x;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -12,7 +12,7 @@
 #include "apps/visual_hull/viewing_edges/direct_hull.h"
 #include "apps/visual_hull/viewing_edges/edge_view.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// What sums of at most four products of doubles lose, as a part of the sum of magnitudes: at most 5 roundings of
 /// 2^-53, and room for those of the bounds.
@@ -54,4 +54,4 @@ class EdgeScene {
   std::size_t exact_budget_ = 0;
 };
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

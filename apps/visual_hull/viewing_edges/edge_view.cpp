@@ -12,7 +12,7 @@
 
 #include "nef/number/approximation.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 // What sums of at most four products lose, as a part of the sum of magnitudes: u for the matrix, u for a product, at
@@ -481,4 +481,4 @@ std::array<Integer, 4> EdgeView::plane(std::uint32_t edge) const {
   return planes_.through(*edges_[edge].from, *edges_[edge].to);
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

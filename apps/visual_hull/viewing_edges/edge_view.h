@@ -14,7 +14,7 @@
 #include "apps/visual_hull/scene/camera_planes.h"
 #include "nef/geometry/vectors.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 using nef::Double3;
 
@@ -148,4 +148,4 @@ class EdgeView {
   std::vector<bool> cell_inside_;
 };
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -19,7 +19,7 @@
 #include "nef/polyhedron.h"
 #include "nef/synthesis/complex_builder.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using nef::PlaneId;
@@ -249,4 +249,4 @@ std::optional<nef::Polyhedron> complex_of(const HullVertices& vertices, const st
   return nef::Polyhedron(builder.finish(0));
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

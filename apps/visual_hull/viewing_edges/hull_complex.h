@@ -8,7 +8,7 @@
 #include "apps/visual_hull/viewing_edges/edge_view.h"
 #include "nef/forward.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// The vertices of a hull.
 struct HullVertices {
@@ -23,4 +23,4 @@ struct HullVertices {
 std::optional<nef::Polyhedron> complex_of(const HullVertices& vertices, const std::vector<ViewingEdge>& edges,
                                           const std::vector<const Camera*>& cameras, const nef::Monitor& monitor);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 // What sums here and in halving may lose, as a part of the sum S of the magnitudes in them. u = 2^-53.
@@ -110,4 +110,4 @@ bool PartCut::misses(const PartFacet& facet) const {
   return positive(-height, slope, facet.error);
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

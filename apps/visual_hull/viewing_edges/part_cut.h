@@ -9,7 +9,7 @@
 #include "apps/visual_hull/viewing_edges/edge_scene.h"
 #include "apps/visual_hull/viewing_edges/part_vertices.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// What halving asks of an edge, close together.
 struct PartFacet {
@@ -57,4 +57,4 @@ class PartCut {
   Double3 point_{};
 };
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -12,7 +12,7 @@
 #include "nef/geometry/vectors.h"
 #include "nef/number/nearest_quotient.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 Spot nearest_spot(const ExactPoint& x) {
@@ -195,4 +195,4 @@ Answer PartVertices::on_hull(std::span<const Shown> views, const SpotName& name,
   return vague ? Answer::kVague : Answer::kYes;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

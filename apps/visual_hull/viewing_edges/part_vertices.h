@@ -10,7 +10,7 @@
 #include "apps/visual_hull/viewing_edges/plane_triple.h"
 #include "nef/base/monitor.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// A box of space: its middle and half of its sides.
 struct PartBox {
@@ -67,4 +67,4 @@ class PartVertices {
   std::size_t first_crowded_ = 0;    // of the part
 };
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -6,7 +6,7 @@
 
 #include "nef/geometry/vectors.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 // Of sums of products of three values, as a part of the product of their sizes. u = 2^-53. A component of a cross
@@ -51,4 +51,4 @@ Answer meet_in_cube(const CubePlane& p, const CubePlane& q, const CubePlane& r, 
   return Answer::kYes;
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

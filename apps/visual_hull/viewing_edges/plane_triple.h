@@ -7,7 +7,7 @@
 
 #include "apps/visual_hull/viewing_edges/edge_view.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// Parts of space overlap by so much of their halves, so that every point of space lies well inside of one.
 inline constexpr double kOverlap = 0x1p-16;
@@ -39,4 +39,4 @@ enum class Answer : std::uint8_t { kNo, kYes, kVague };
 [[nodiscard]] Answer meet_in_cube(const CubePlane& p, const CubePlane& q, const CubePlane& r, const Double3& pq,
                                   const Double3& pr, const Double3& qr, CubePoint& result);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -19,7 +19,7 @@
 #include "nef/base/threads/parallel.h"
 #include "nef/base/threads/shared_out.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 // Choices between the time of one more halving and that of the triples that it saves.
@@ -287,4 +287,4 @@ std::optional<HullVertices> hull_vertices(const EdgeScene& scene, const nef::Mon
   return together(found, monitor);
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

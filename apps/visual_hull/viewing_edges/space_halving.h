@@ -7,7 +7,7 @@
 #include "apps/visual_hull/viewing_edges/edge_scene.h"
 #include "apps/visual_hull/viewing_edges/hull_complex.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 
 /// All vertices of the hull, and crowded points that may be none; nothing where PartVertices finds none. Space is
 /// halved again and again; a part that a silhouette does not show at all is dropped, the edges of a silhouette that are
@@ -16,4 +16,4 @@ namespace visual_hull {
 /// `monitor`.
 std::optional<HullVertices> hull_vertices(const EdgeScene& scene, const nef::Monitor& monitor);
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

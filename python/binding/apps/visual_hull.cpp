@@ -27,8 +27,8 @@
 namespace nef::python {
 namespace {
 
-visual_hull::Matrix34 matrix_of(py::handle rows) {
-  visual_hull::Matrix34 result;
+nef::visual_hull::Matrix34 matrix_of(py::handle rows) {
+  nef::visual_hull::Matrix34 result;
   const py::sequence given = py::reinterpret_borrow<py::sequence>(rows);
   if (py::len(given) != 3) throw InputError("a camera is a matrix of shape (3, 4)");
   for (std::size_t i = 0; i < 3; ++i) {
@@ -54,44 +54,45 @@ void write_mask(const Mask& mask, const std::string& path) {
   write_file(path, view::png_bytes(image));
 }
 
-visual_hull::WorldBox box_of(const py::object& box) {
+nef::visual_hull::WorldBox box_of(const py::object& box) {
   const std::array<Rational3, 2> corners = to_corners(box);
   return {corners[0], corners[1]};
 }
 
-visual_hull::Way way_named(const std::string& name) {
-  if (name == "best") return visual_hull::Way::kBest;
-  if (name == "direct") return visual_hull::Way::kDirect;
-  if (name == "cones") return visual_hull::Way::kCones;
+nef::visual_hull::Way way_named(const std::string& name) {
+  if (name == "best") return nef::visual_hull::Way::kBest;
+  if (name == "direct") return nef::visual_hull::Way::kDirect;
+  if (name == "cones") return nef::visual_hull::Way::kCones;
   throw InputError("way must be 'best', 'direct' or 'cones', not " + in_quotes(name));
 }
 
 // Of the keywords that nef/visual_hull.py lists; each is there.
-visual_hull::Options options_of(const py::dict& given) {
-  visual_hull::Options options;
+nef::visual_hull::Options options_of(const py::dict& given) {
+  nef::visual_hull::Options options;
   const auto flag = [&given](const char* key) { return given[key].cast<bool>(); };
   options.silhouette.simplify = {given["tolerance"].cast<double>(), flag("outer")};
   options.silhouette.min_area = given["min_area"].cast<double>();
-  options.silhouette.border = flag("unknown_beyond") ? visual_hull::Border::kUnknown : visual_hull::Border::kOutside;
-  if (flag("half_pixels")) options.origin = visual_hull::PixelOrigin::kCorner;
+  options.silhouette.border =
+      flag("unknown_beyond") ? nef::visual_hull::Border::kUnknown : nef::visual_hull::Border::kOutside;
+  if (flag("half_pixels")) options.origin = nef::visual_hull::PixelOrigin::kCorner;
   if (!given["box"].is_none()) options.box = box_of(given["box"]);
   if (!given["images"].is_none()) options.images = given["images"].cast<std::string>();
   if (!given["threshold"].is_none()) {
-    options.silhouette.threshold = visual_hull::parse_threshold(py::str(given["threshold"]).cast<std::string>());
+    options.silhouette.threshold = nef::visual_hull::parse_threshold(py::str(given["threshold"]).cast<std::string>());
   }
   options.silhouette.threshold.invert = flag("invert");
   if (!given["channel"].is_none()) {
-    options.silhouette.threshold.channel = visual_hull::parse_channel(given["channel"].cast<std::string>());
+    options.silhouette.threshold.channel = nef::visual_hull::parse_channel(given["channel"].cast<std::string>());
   }
   if (!given["mask"].is_none()) {
     if (!given["threshold"].is_none() || !given["channel"].is_none() || flag("invert")) {
       throw InputError("mask excludes threshold, channel and invert, which are for images that are masks");
     }
-    options.mask = visual_hull::parse_mask_method(given["mask"].cast<std::string>());
+    options.mask = nef::visual_hull::parse_mask_method(given["mask"].cast<std::string>());
   }
   if (!given["at_least"].is_none()) options.at_least = given["at_least"].cast<std::size_t>();
   options.way = way_named(given["way"].cast<std::string>());
-  if (options.at_least && options.way == visual_hull::Way::kDirect) {
+  if (options.at_least && options.way == nef::visual_hull::Way::kDirect) {
     throw InputError("at_least excludes way='direct': it overlays cones");
   }
   options.repair_masks = flag("repair_masks");
@@ -105,7 +106,7 @@ visual_hull::Options options_of(const py::dict& given) {
 }
 
 // (name, image, contours, holes, cut by the frame, inside, unexplained pixels, silhouette's pixels)
-py::tuple view_tuple(const visual_hull::ViewResult& view) {
+py::tuple view_tuple(const nef::visual_hull::ViewResult& view) {
   py::object inside = py::none();
   py::object difference = py::none();
   py::object area = py::none();
@@ -120,7 +121,7 @@ py::tuple view_tuple(const visual_hull::ViewResult& view) {
                         view.silhouette.cut_by_frame, inside, difference, area);
 }
 
-py::list doubles_of(const visual_hull::Camera& camera) {
+py::list doubles_of(const nef::visual_hull::Camera& camera) {
   py::list rows;
   for (const auto& row : camera.matrix()) {
     py::list entries;
@@ -130,18 +131,18 @@ py::list doubles_of(const visual_hull::Camera& camera) {
   return rows;
 }
 
-py::dict refinement_dict(const visual_hull::refine::Refinement& r) {
+py::dict refinement_dict(const nef::visual_hull::refine::Refinement& r) {
   py::dict result;
   result["accepted"] = r.accepted;
-  result["model"] = visual_hull::refine::model_name(r.model);
+  result["model"] = nef::visual_hull::refine::model_name(r.model);
   result["residual"] = py::make_tuple(r.before.mean, r.after.mean);
   result["held_out"] = py::make_tuple(r.held_out_before.mean, r.held_out_after.mean);
   result["focal"] = r.focal;
   result["undetermined"] = r.undetermined;
   py::list views;
   py::list cameras;
-  for (const visual_hull::refine::RefinedView& view : r.views) {
-    using visual_hull::refine::Fault;
+  for (const nef::visual_hull::refine::RefinedView& view : r.views) {
+    using nef::visual_hull::refine::Fault;
     const py::object fault = view.fault == Fault::kNone
                                  ? py::object(py::none())
                                  : py::object(py::str(view.fault == Fault::kMask ? "mask" : "camera"));
@@ -155,24 +156,24 @@ py::dict refinement_dict(const visual_hull::refine::Refinement& r) {
 }
 
 // Names of the views that disagree with the others, those that were left out first.
-py::list suspects_of(const visual_hull::Result& made) {
+py::list suspects_of(const nef::visual_hull::Result& made) {
   py::list names;
-  for (const visual_hull::Dropped& dropped : made.dropped) names.append(dropped.view);
+  for (const nef::visual_hull::Dropped& dropped : made.dropped) names.append(dropped.view);
   if (made.consistency && made.consistency->guilty) names.append(made.views[*made.consistency->guilty].name);
   return names;
 }
 
-py::dict compute(const visual_hull::Scene& scene, const std::string& folder, const visual_hull::Options& options,
-                 const py::object& progress) {
+py::dict compute(const nef::visual_hull::Scene& scene, const std::string& folder,
+                 const nef::visual_hull::Options& options, const py::object& progress) {
   const ProgressFunction told(progress);
-  const visual_hull::Result made = call(kSmallCall, [=](const Monitor& monitor) {
-    const visual_hull::Progress forward = [&](visual_hull::Phase phase, const std::string& name, std::size_t done,
-                                              std::size_t total) {
-      told(monitor, std::string(visual_hull::phase_name(phase)), name, done, total);
+  const nef::visual_hull::Result made = call(kSmallCall, [=](const Monitor& monitor) {
+    const nef::visual_hull::Progress forward = [&](nef::visual_hull::Phase phase, const std::string& name,
+                                                   std::size_t done, std::size_t total) {
+      told(monitor, std::string(nef::visual_hull::phase_name(phase)), name, done, total);
     };
-    visual_hull::Options watched = options;
+    nef::visual_hull::Options watched = options;
     watched.monitor = monitor.on_threads(options.monitor.threads());
-    return visual_hull::compute(scene, folder, watched, forward);
+    return nef::visual_hull::compute(scene, folder, watched, forward);
   });
   py::dict result;
   result["hull"] = made.hull;
@@ -180,7 +181,7 @@ py::dict compute(const visual_hull::Scene& scene, const std::string& folder, con
   result["vanished"] =
       made.vanished ? py::object(py::make_tuple(made.vanished->view, made.vanished->reason)) : py::none();
   py::list views;
-  for (const visual_hull::ViewResult& view : made.views) views.append(view_tuple(view));
+  for (const nef::visual_hull::ViewResult& view : made.views) views.append(view_tuple(view));
   result["views"] = views;
   result["notes"] = made.notes;
   result["pieces"] = made.pieces;
@@ -190,10 +191,10 @@ py::dict compute(const visual_hull::Scene& scene, const std::string& folder, con
 }
 
 // (K, coefficients)
-visual_hull::Distortion distortion_of(py::handle lens) {
+nef::visual_hull::Distortion distortion_of(py::handle lens) {
   const py::sequence parts = py::reinterpret_borrow<py::sequence>(lens);
   if (parts.size() != 2) throw InputError("a lens is a matrix K of shape (3, 3) and its coefficients");
-  visual_hull::Distortion result;
+  nef::visual_hull::Distortion result;
   const py::sequence rows = parts[0];
   if (rows.size() != 3) throw InputError("K is a matrix of shape (3, 3)");
   for (std::size_t i = 0; i < 3; ++i) result.intrinsics[i] = to_triple(rows[i], "a row of K");
@@ -206,32 +207,32 @@ visual_hull::Distortion distortion_of(py::handle lens) {
 }
 
 // The turntable is (images of a turn, intrinsics, radius, height), the last three None if its camera is not known.
-visual_hull::Scene turntable_of(const py::tuple& given) {
+nef::visual_hull::Scene turntable_of(const py::tuple& given) {
   const int count = given[0].cast<int>();
-  if (given[1].is_none() && given[2].is_none()) return visual_hull::guess_turntable(std::abs(count));
+  if (given[1].is_none() && given[2].is_none()) return nef::visual_hull::guess_turntable(std::abs(count));
   if (given[1].is_none() || given[2].is_none()) throw InputError("a turntable needs intrinsics and radius, or neither");
-  return visual_hull::make_turntable(
+  return nef::visual_hull::make_turntable(
       {count, given[1].cast<std::vector<double>>(), given[2].cast<double>(), given[3].cast<double>()});
 }
 
-py::dict from_file(const std::string& path, const visual_hull::Options& options, const std::string& matrices,
+py::dict from_file(const std::string& path, const nef::visual_hull::Options& options, const std::string& matrices,
                    const std::string& up, const py::object& turntable, const py::object& progress) {
   const std::filesystem::path file(path);
-  visual_hull::Scene scene =
-      turntable.is_none() ? visual_hull::read_scene(file, {matrices}) : turntable_of(py::tuple(turntable));
-  if (!up.empty()) visual_hull::turn_up(scene, up);
-  return compute(scene, visual_hull::scene_folder(file).string(), options, progress);
+  nef::visual_hull::Scene scene =
+      turntable.is_none() ? nef::visual_hull::read_scene(file, {matrices}) : turntable_of(py::tuple(turntable));
+  if (!up.empty()) nef::visual_hull::turn_up(scene, up);
+  return compute(scene, nef::visual_hull::scene_folder(file).string(), options, progress);
 }
 
 py::dict from_views(const std::vector<std::string>& names, const std::vector<std::string>& images,
                     const py::list& matrices, const py::object& lenses, const std::string& folder,
-                    const visual_hull::Options& options, const py::object& progress) {
-  visual_hull::Scene scene;
+                    const nef::visual_hull::Options& options, const py::object& progress) {
+  nef::visual_hull::Scene scene;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    visual_hull::View& view = scene.views.emplace_back();
+    nef::visual_hull::View& view = scene.views.emplace_back();
     view.name = names[i];
     view.image = images.at(i);
-    view.camera = visual_hull::Camera(names[i], matrix_of(matrices[i]));
+    view.camera = nef::visual_hull::Camera(names[i], matrix_of(matrices[i]));
     if (!lenses.is_none()) view.distortion = distortion_of(py::list(lenses)[i]);
   }
   return compute(scene, folder, options, progress);
@@ -248,7 +249,7 @@ cv::Mat mask_of(const Mask& mask) {
 py::dict refine(const std::vector<std::string>& names, const std::vector<Mask>& masks, const py::object& matrices,
                 bool half_pixels, unsigned threads) {
   std::vector<cv::Mat> images;
-  std::vector<visual_hull::Camera> cameras;
+  std::vector<nef::visual_hull::Camera> cameras;
   for (std::size_t i = 0; i < masks.size(); ++i) {
     images.push_back(mask_of(masks[i]));
     if (matrices.is_none()) {
@@ -259,31 +260,31 @@ py::dict refine(const std::vector<std::string>& names, const std::vector<Mask>& 
     }
   }
   const bool found = matrices.is_none();
-  const visual_hull::refine::Refinement made = call(kSmallCall, [=](const Monitor& monitor) {
-    visual_hull::SilhouetteOptions silhouettes;
-    if (half_pixels) silhouettes.origin = visual_hull::PixelOrigin::kCorner;
-    std::vector<visual_hull::ViewSilhouette> seen;
+  const nef::visual_hull::refine::Refinement made = call(kSmallCall, [=](const Monitor& monitor) {
+    nef::visual_hull::SilhouetteOptions silhouettes;
+    if (half_pixels) silhouettes.origin = nef::visual_hull::PixelOrigin::kCorner;
+    std::vector<nef::visual_hull::ViewSilhouette> seen;
     for (std::size_t i = 0; i < images.size(); ++i) {
-      seen.push_back(visual_hull::silhouette_of_mask(images[i], {}, names[i], silhouettes, monitor));
+      seen.push_back(nef::visual_hull::silhouette_of_mask(images[i], {}, names[i], silhouettes, monitor));
     }
-    std::vector<visual_hull::refine::GivenView> views;
+    std::vector<nef::visual_hull::refine::GivenView> views;
     for (std::size_t i = 0; i < images.size(); ++i) {
-      const visual_hull::ImageSize size{images[i].cols, images[i].rows};
+      const nef::visual_hull::ImageSize size{images[i].cols, images[i].rows};
       views.push_back(
-          {names[i], cameras[i], &seen[i].region, seen[i].cut_by_frame ? size : visual_hull::ImageSize{}, {}});
+          {names[i], cameras[i], &seen[i].region, seen[i].cut_by_frame ? size : nef::visual_hull::ImageSize{}, {}});
     }
-    visual_hull::refine::RefineOptions options{silhouettes.origin, {}};
-    if (found && !images.empty()) options.turntable = visual_hull::ImageSize{images[0].cols, images[0].rows};
-    return visual_hull::refine::refine_cameras(views, options, monitor.on_threads(threads));
+    nef::visual_hull::refine::RefineOptions options{silhouettes.origin, {}};
+    if (found && !images.empty()) options.turntable = nef::visual_hull::ImageSize{images[0].cols, images[0].rows};
+    return nef::visual_hull::refine::refine_cameras(views, options, monitor.on_threads(threads));
   });
   return refinement_dict(made);
 }
 
 // (masks, qualities, what was chosen, notes)
 py::tuple masks(const std::vector<std::string>& photographs, const std::string& method, unsigned threads) {
-  const visual_hull::CutOuts made = call(kSmallCall, [=](const Monitor& monitor) {
+  const nef::visual_hull::CutOuts made = call(kSmallCall, [=](const Monitor& monitor) {
     const std::vector<std::filesystem::path> files(photographs.begin(), photographs.end());
-    return visual_hull::cut_out(files, visual_hull::parse_mask_method(method), monitor.on_threads(threads));
+    return nef::visual_hull::cut_out(files, nef::visual_hull::parse_mask_method(method), monitor.on_threads(threads));
   });
   py::list arrays;
   for (const cv::Mat& mask : made.masks) {
@@ -296,16 +297,17 @@ py::tuple masks(const std::vector<std::string>& photographs, const std::string& 
 }
 
 py::bytes board(const std::string& description, const std::string& extension) {
-  return py::bytes(visual_hull::board_file(visual_hull::parse_board(description), extension));
+  return py::bytes(nef::visual_hull::board_file(nef::visual_hull::parse_board(description), extension));
 }
 
-py::list calibrated_views(const visual_hull::Calibration& made, const std::vector<visual_hull::CalibratedView>& views) {
+py::list calibrated_views(const nef::visual_hull::Calibration& made,
+                          const std::vector<nef::visual_hull::CalibratedView>& views) {
   py::list result;
-  for (const visual_hull::CalibratedView& view : views) {
+  for (const nef::visual_hull::CalibratedView& view : views) {
     const bool good = view.refused.empty();
     const std::string name = view.photograph.string();
     const py::object camera =
-        good ? py::object(doubles_of(visual_hull::make_view(name, made.lens.lens, view.pose).camera))
+        good ? py::object(doubles_of(nef::visual_hull::make_view(name, made.lens.lens, view.pose).camera))
              : py::object(py::none());
     result.append(py::make_tuple(name, view.corners, good ? py::object(py::float_(view.error_px)) : py::none(), camera,
                                  good ? py::object(py::none()) : py::object(py::str(view.refused))));
@@ -315,14 +317,14 @@ py::list calibrated_views(const visual_hull::Calibration& made, const std::vecto
 
 py::dict calibrate(const std::vector<std::string>& photographs, const std::string& board,
                    const std::vector<std::string>& lens, const std::string& scene, unsigned threads) {
-  const visual_hull::Calibration made = call(kSmallCall, [=](const Monitor& monitor) {
-    visual_hull::Calibration found =
-        visual_hull::calibrate({photographs.begin(), photographs.end()}, visual_hull::parse_board(board),
-                               {lens.begin(), lens.end()}, monitor.on_threads(threads));
-    if (!scene.empty()) visual_hull::write_scene_file(scene, found.scene());
+  const nef::visual_hull::Calibration made = call(kSmallCall, [=](const Monitor& monitor) {
+    nef::visual_hull::Calibration found =
+        nef::visual_hull::calibrate({photographs.begin(), photographs.end()}, nef::visual_hull::parse_board(board),
+                                    {lens.begin(), lens.end()}, monitor.on_threads(threads));
+    if (!scene.empty()) nef::visual_hull::write_scene_file(scene, found.scene());
     return found;
   });
-  const visual_hull::BoardLens& found = made.lens;
+  const nef::visual_hull::BoardLens& found = made.lens;
   py::dict result;
   result["focal"] = py::make_tuple(found.lens.fx, found.lens.fy);
   result["focal_deviation"] = found.focal_share;
@@ -339,7 +341,7 @@ py::dict calibrate(const std::vector<std::string>& photographs, const std::strin
 void define_module(py::module_& m) {
   m.doc() = "The core of the package nef.visual_hull; see there.";
   py::module_::import("nef._nef");
-  py::class_<visual_hull::Options>(m, "Options").def(py::init(&options_of));
+  py::class_<nef::visual_hull::Options>(m, "Options").def(py::init(&options_of));
   m.def("write_mask", &write_mask);
   m.def("from_file", &from_file);
   m.def("from_views", &from_views);

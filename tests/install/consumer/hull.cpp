@@ -3,10 +3,10 @@
 #include "apps/visual_hull/visual_hull.h"
 int main() {
   // A camera at the origin that looks along +z sees a square; the box ends at depth 3.
-  visual_hull::Scene scene;
-  visual_hull::View view;
-  view.polygons = std::vector<visual_hull::Ring>{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  nef::visual_hull::Scene scene;
+  nef::visual_hull::View view;
+  view.polygons = std::vector<nef::visual_hull::Ring>{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
   scene.views.push_back(view);
-  scene.box = visual_hull::WorldBox{{-9, -9, -9}, {9, 9, 3}};
-  std::cout << *nef::volume(visual_hull::compute(scene, {}, {}).hull) << '\n';  // 36
+  scene.box = nef::visual_hull::WorldBox{{-9, -9, -9}, {9, 9, 3}};
+  std::cout << *nef::volume(nef::visual_hull::compute(scene, {}, {}).hull) << '\n';  // 36
 }

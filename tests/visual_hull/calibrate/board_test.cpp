@@ -14,7 +14,7 @@
 #include "tests/visual_hull/command/run_command.h"
 #include "tests/visual_hull/scratch.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using Catch::Contains;
@@ -138,4 +138,4 @@ TEST_CASE("visual_hull board writes PDF, SVG and PNG to scale, and nothing else"
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

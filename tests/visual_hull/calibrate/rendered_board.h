@@ -15,7 +15,7 @@
 #include "apps/visual_hull/calibrate/board_sheet.h"
 #include "apps/visual_hull/scene/pose.h"
 
-namespace visual_hull::testing {
+namespace nef::visual_hull::testing {
 
 /// A camera that photographs.
 struct BoardCamera {
@@ -163,4 +163,4 @@ class BoardStudio {
   double torn_;
 };
 
-}  // namespace visual_hull::testing
+}  // namespace nef::visual_hull::testing

@@ -14,7 +14,7 @@
 #include "tests/visual_hull/refine/rendered.h"
 #include "tests/visual_hull/scratch.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 namespace fs = std::filesystem;
@@ -147,4 +147,4 @@ TEST_CASE("What --refine needs is said in one line") {
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -8,7 +8,7 @@
 #include "tests/visual_hull/helpers.h"
 #include "tests/visual_hull/scratch.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using Catch::Contains;
@@ -113,4 +113,4 @@ TEST_CASE("A scene of any size that its numbers can have is bounded by its cones
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -12,7 +12,7 @@
 
 #include "tests/support/paths.h"
 
-namespace visual_hull::testing {
+namespace nef::visual_hull::testing {
 
 struct Outcome {
   int code = -1;
@@ -32,4 +32,4 @@ inline Outcome run(const std::string& arguments) {
   return outcome;
 }
 
-}  // namespace visual_hull::testing
+}  // namespace nef::visual_hull::testing

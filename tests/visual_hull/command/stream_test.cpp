@@ -19,7 +19,7 @@
 #include "tests/visual_hull/helpers.h"
 #include "tests/visual_hull/scratch.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 namespace fs = std::filesystem;
@@ -162,4 +162,4 @@ TEST_CASE("Frames from files: a hull each, a manifest, and only what is new the 
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -9,7 +9,7 @@
 #include "nef/query/measures/approximate_volume.h"
 #include "tests/visual_hull/helpers.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using testing::axis_camera;
@@ -360,4 +360,4 @@ TEST_CASE("Random masks from three sides: the hull verifies in every view") {
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -8,7 +8,7 @@
 #include "nef/polyhedron.h"
 #include "tests/visual_hull/helpers.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using testing::axis_camera;
@@ -130,4 +130,4 @@ TEST_CASE("The box of a scene is found exactly") {
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

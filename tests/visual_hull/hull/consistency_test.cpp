@@ -15,7 +15,7 @@
 #include "tests/visual_hull/helpers.h"
 #include "tests/visual_hull/scratch.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using testing::axis_camera;
@@ -272,4 +272,4 @@ TEST_CASE("Points in at least so many silhouettes need no box where groups of vi
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -10,7 +10,7 @@
 #include "tests/support/paths.h"
 #include "tests/visual_hull/helpers.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using testing::axis_camera;
@@ -277,4 +277,4 @@ TEST_CASE("What the direct way is not made for it leaves to the cones") {
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -6,7 +6,7 @@
 #include "tests/support/worst_error.h"
 #include "tests/visual_hull/helpers.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using nef::test::Genes;
@@ -46,4 +46,4 @@ TEST_CASE("The image of a spot: its error holds where it is worst", "[bounds]") 
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

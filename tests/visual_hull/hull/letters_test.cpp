@@ -8,7 +8,7 @@
 #include "tests/support/paths.h"
 #include "tests/visual_hull/helpers.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 Scene letters() { return read_scene(source_folder() + "/data/visual_hull/letters/mpi.vsh"); }
@@ -101,4 +101,4 @@ TEST_CASE("Any number of threads gives the same complex", "[threads]") {
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

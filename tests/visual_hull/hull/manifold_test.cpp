@@ -10,7 +10,7 @@
 #include "tests/visual_hull/helpers.h"
 #include "tests/visual_hull/scratch.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using nef::test::not_two_manifold;
@@ -67,4 +67,4 @@ TEST_CASE("Noise of diagonal pixels, seen from three sides") {
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -8,7 +8,7 @@
 #include "nef/base/error.h"
 #include "tests/visual_hull/helpers.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using Catch::Contains;
@@ -129,4 +129,4 @@ TEST_CASE("What is no camera, and what needs pinholes, is refused by name") {
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -8,7 +8,7 @@
 
 #include "tests/support/next_to_zero.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 constexpr EdgeView::Window kWindow{{10, 20}, {1, 1}};
@@ -174,4 +174,4 @@ TEST_CASE("An edge that ends in the window, or a plane that may pass beside the 
   CHECK_FALSE(cut(facet_of({1, 0, 0}, 0)));
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

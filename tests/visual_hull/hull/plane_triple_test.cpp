@@ -9,7 +9,7 @@
 #include "tests/support/next_to_zero.h"
 #include "tests/support/worst_error.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using nef::exact_rational;
@@ -143,4 +143,4 @@ TEST_CASE("Three planes that nearly have a line in common, or meet at the border
   CHECK(no > 1000);
 }
 
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

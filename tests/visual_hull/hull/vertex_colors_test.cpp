@@ -12,7 +12,7 @@
 #include "tests/visual_hull/helpers.h"
 #include "tests/visual_hull/scratch.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using Vec = std::array<double, 3>;
@@ -213,4 +213,4 @@ TEST_CASE("The photograph of a mask lies in the folder images beside it") {
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

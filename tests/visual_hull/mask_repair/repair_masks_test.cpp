@@ -16,7 +16,7 @@
 #include "tests/visual_hull/refine/rendered.h"
 #include "tests/visual_hull/scratch.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using Catch::Contains;
@@ -139,4 +139,4 @@ TEST_CASE("Repairs of masks on the way to a hull are told, and need cameras") {
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -15,7 +15,7 @@
 #include "tests/visual_hull/command/run_command.h"
 #include "tests/visual_hull/scratch.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using Catch::Contains;
@@ -259,4 +259,4 @@ TEST_CASE("A hull from photographs is that from their masks") {
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

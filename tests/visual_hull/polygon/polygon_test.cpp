@@ -7,7 +7,7 @@
 
 #include "tests/support/next_to_zero.h"
 
-namespace visual_hull::test {
+namespace nef::visual_hull::test {
 
 using nef::Rational;
 using nef::test::NextToZero;
@@ -36,4 +36,4 @@ TEST_CASE("three points of an image on a line, or a hair beside it", "[bounds]")
   }
 }
 
-}  // namespace visual_hull::test
+}  // namespace nef::visual_hull::test

@@ -11,7 +11,7 @@
 #include "apps/visual_hull/refine/refine.h"
 #include "tests/visual_hull/refine/rendered.h"
 
-namespace visual_hull::testing {
+namespace nef::visual_hull::testing {
 
 inline constexpr double kObjectRadius = 0.8;  // of the objects: points to measure by are on a ball of this radius
 
@@ -74,4 +74,4 @@ inline Difference difference(const std::vector<Camera>& cameras, const std::vect
   return result;
 }
 
-}  // namespace visual_hull::testing
+}  // namespace nef::visual_hull::testing

@@ -10,7 +10,7 @@
 #include "tests/visual_hull/helpers.h"
 #include "tests/visual_hull/refine/rendered.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using refine::Coherence;
@@ -152,4 +152,4 @@ TEST_CASE("The axis of a turntable is found, and rings of other cameras have non
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -14,7 +14,7 @@
 #include "tests/visual_hull/refine/camera_difference.h"
 #include "tests/visual_hull/refine/rendered.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using refine::Fault;
@@ -227,4 +227,4 @@ TEST_CASE("Two views are too few to refine") {
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

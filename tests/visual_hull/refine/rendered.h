@@ -14,7 +14,7 @@
 #include "apps/visual_hull/scene/pose.h"
 #include "apps/visual_hull/silhouette/silhouette.h"
 
-namespace visual_hull::testing {
+namespace nef::visual_hull::testing {
 
 using Matrix34d = Eigen::Matrix<double, 3, 4>;
 
@@ -148,4 +148,4 @@ inline Set rendered_set(const std::vector<Ellipsoid>& object, const std::vector<
   return set;
 }
 
-}  // namespace visual_hull::testing
+}  // namespace nef::visual_hull::testing

@@ -12,7 +12,7 @@
 #include "tests/visual_hull/scene/mat_file.h"
 #include "tests/visual_hull/scratch.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using Catch::Contains;
@@ -92,4 +92,4 @@ TEST_CASE("A scene comes through the process with limits as it is") {
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

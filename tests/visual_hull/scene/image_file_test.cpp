@@ -12,7 +12,7 @@
 #include "nef/io/bounded_process.h"
 #include "tests/visual_hull/scratch.h"
 
-namespace visual_hull::testing {
+namespace nef::visual_hull::testing {
 namespace {
 
 constexpr int kWidth = 37;
@@ -140,4 +140,4 @@ TEST_CASE("A file that is no image, or not all of one, has no pixels") {
   }
 }
 
-}  // namespace visual_hull::testing
+}  // namespace nef::visual_hull::testing

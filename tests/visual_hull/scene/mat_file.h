@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace visual_hull::testing {
+namespace nef::visual_hull::testing {
 
 /// Appends the bytes of a value as they lie in memory (little-endian on all machines that we know).
 template <typename T>
@@ -52,4 +52,4 @@ inline std::string mat_header() {
   return bytes;
 }
 
-}  // namespace visual_hull::testing
+}  // namespace nef::visual_hull::testing

@@ -13,7 +13,7 @@
 #include "tests/visual_hull/helpers.h"
 #include "tests/visual_hull/scratch.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using Catch::Contains;
@@ -176,4 +176,4 @@ TEST_CASE("The program pairs images by number, and says so") {
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

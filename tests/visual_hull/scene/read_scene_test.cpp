@@ -15,7 +15,7 @@
 #include "tests/visual_hull/scene/mat_file.h"
 #include "tests/visual_hull/scratch.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using Catch::Contains;
@@ -359,4 +359,4 @@ TEST_CASE("Quarter turns bring any axis up, exactly") {
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -15,7 +15,7 @@
 #include "tests/visual_hull/scene/mat_file.h"
 #include "tests/visual_hull/scratch.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using nef::cross;
@@ -381,4 +381,4 @@ TEST_CASE("The same cameras in every format give the same hull, the one that the
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

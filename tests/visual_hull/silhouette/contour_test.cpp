@@ -7,7 +7,7 @@
 #include "nef/base/error.h"
 #include "tests/visual_hull/helpers.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using testing::random_mask;
@@ -221,4 +221,4 @@ TEST_CASE("Orientation is exact where doubles are not") {
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

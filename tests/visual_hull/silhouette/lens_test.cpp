@@ -13,7 +13,7 @@
 #include "tests/visual_hull/helpers.h"
 #include "tests/visual_hull/scratch.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using Catch::Contains;
@@ -189,4 +189,4 @@ TEST_CASE("The hull of views with a wide lens is that of the same views without"
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -9,7 +9,7 @@
 #include "tests/visual_hull/helpers.h"
 #include "tests/visual_hull/scratch.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using testing::axis_camera;
@@ -148,4 +148,4 @@ TEST_CASE("A silhouette that the frame cuts ends there, or leaves what is beyond
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

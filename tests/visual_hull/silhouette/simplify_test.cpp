@@ -8,7 +8,7 @@
 #include "nef/base/error.h"
 #include "tests/visual_hull/helpers.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 using testing::random_mask;
@@ -121,4 +121,4 @@ TEST_CASE("A thin ring keeps its hole however coarse the tolerance") {
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

@@ -12,7 +12,7 @@
 #include "tests/visual_hull/command/run_command.h"
 #include "tests/visual_hull/scratch.h"
 
-namespace visual_hull {
+namespace nef::visual_hull {
 namespace {
 
 int render(const std::string& arguments) {
@@ -53,4 +53,4 @@ TEST_CASE("rendering refuses what is no mesh, and what it cannot draw", "[tools]
 }
 
 }  // namespace
-}  // namespace visual_hull
+}  // namespace nef::visual_hull

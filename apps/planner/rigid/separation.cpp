@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// plane_between tries the normals of faces, which separate most pairs that are apart, and then follows Gilbert's
-// algorithm: a point of the set of differences near the origin gives a direction, the farthest
-// difference in the opposite one a better point. Only verified planes count, so the search may stop anywhere.
+// plane_between tries the normals of faces, which separate most pairs that are apart, and then follows the algorithm of
+// Gilbert, Johnson and Keerthi: the point nearest to the origin in a simplex of differences gives a direction, and the
+// farthest difference in the opposite one is the next corner. Only verified planes count, so the search may stop
+// anywhere.
 //
 // overlap knows the generic ways in which convex polytopes meet: a vertex of one is inside the other, or an edge of one
 // goes through a face of the other. Otherwise a point inside both is looked for by projections on the planes of faces.
@@ -10,7 +11,9 @@
 #include "apps/planner/rigid/separation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 namespace nef::planner {
 namespace {
@@ -55,6 +58,66 @@ Supports supports(const RoughPolytope& a, const RoughPolytope& b, const Vector3d
   result.gap = least - most;
   return result;
 }
+
+// A simplex of differences b - a, one to four of them, and its point nearest to the origin. Only a heuristic: rounding
+// may make the point a worse one.
+class NearestInSimplex {
+ public:
+  explicit NearestInSimplex(const Vector3d& first) : corners_{first}, nearest_(first) {}
+
+  [[nodiscard]] const Vector3d& nearest() const { return nearest_; }
+
+  // Adds a corner, and drops those that the nearest point does not need. False if it came no nearer, or all four are
+  // needed: the origin is inside.
+  bool add(const Vector3d& corner) {
+    corners_[count_++] = corner;
+    const double before = nearest_.squaredNorm();
+    double best = before;
+    unsigned kept = 0;
+    const unsigned all = (1U << count_) - 1;
+    const unsigned newest = 1U << (count_ - 1);
+    for (unsigned subset = newest; subset <= all; ++subset) {
+      const std::optional<Vector3d> point = projection(subset);
+      if (!point || !(point->squaredNorm() < best)) continue;
+      best = point->squaredNorm();
+      nearest_ = *point;
+      kept = subset;
+    }
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if ((kept >> i & 1U) != 0) corners_[left++] = corners_[i];
+    }
+    count_ = left;
+    return best < before && count_ < corners_.size();
+  }
+
+ private:
+  // The point nearest to the origin in the affine hull of some corners, if it lies between them.
+  [[nodiscard]] std::optional<Vector3d> projection(unsigned subset) const {
+    std::array<Vector3d, 4> p;
+    int n = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if ((subset >> i & 1U) != 0) p[static_cast<std::size_t>(n++)] = corners_[i];
+    }
+    if (n == 1) return p[0];
+    Eigen::Matrix3d edges = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d products = Eigen::Matrix3d::Identity();
+    for (int i = 0; i + 1 < n; ++i) edges.col(i) = p[static_cast<std::size_t>(i) + 1] - p[0];
+    products.topLeftCorner(n - 1, n - 1) = (edges.transpose() * edges).topLeftCorner(n - 1, n - 1);
+    const Vector3d weights = products.inverse() * -(edges.transpose() * p[0]);
+    double first = 1;
+    for (int i = 0; i + 1 < n; ++i) {
+      if (!(weights[i] > 0)) return std::nullopt;
+      first -= weights[i];
+    }
+    if (!(first > 0)) return std::nullopt;
+    return Vector3d(p[0] + edges * weights);
+  }
+
+  std::array<Vector3d, 4> corners_;
+  std::size_t count_ = 1;
+  Vector3d nearest_;
+};
 
 // Signed distances of points to the plane of a face, as signs; 0 is not known.
 int sign_beyond(double value, double bound) {
@@ -212,18 +275,13 @@ Separation plane_between(const RoughPolytope& a, const RoughPolytope& b, Vector3
   for (const Vector3d& n : a.normals) {
     if (separates(n)) return Separation::kApart;
   }
-  // The point of the set of differences b - a nearest to the origin so far.
-  Vector3d nearest = b.points.front() - a.points.front();
+  NearestInSimplex simplex(b.points.front() - a.points.front());
   constexpr int kRounds = 24;
   for (int round = 0; round < kRounds; ++round) {
-    const double length = nearest.norm();
+    const double length = simplex.nearest().norm();
     if (!(length > kPlaneError * reach)) break;
-    if (separates(nearest / length)) return Separation::kApart;
-    // The nearest point of the segment to the difference that lies least far along it.
-    const Vector3d step = (last.of_b - last.of_a) - nearest;
-    const double square = step.squaredNorm();
-    if (!(square > 0)) break;
-    nearest += std::clamp(-nearest.dot(step) / square, 0.0, 1.0) * step;
+    if (separates(simplex.nearest() / length)) return Separation::kApart;
+    if (!simplex.add(last.of_b - last.of_a)) break;
   }
   return perhaps ? Separation::kPerhaps : Separation::kUnknown;
 }

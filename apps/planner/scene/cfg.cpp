@@ -2,7 +2,7 @@
 //
 // OMPL.app's problem files: lines `key = value` of section [problem], all others ignored ([benchmark] and [planner]
 // concern OMPL's own programs). The rotations of start and goal decide what the scene is: equal ones are applied to the
-// robot once, different ones about one axis make a robot that turns.
+// robot once, different ones about one axis make a robot that turns. Of others only paths are certified.
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -98,49 +98,66 @@ bool is_parallel(const Rational3& a, const Rational3& b) {
   return true;
 }
 
-// How both states are turned, about one axis that points the way of the start's. Angles are compared as numbers, not
-// modulo 2 pi, which is irrational.
+// How both states are turned. Angles are compared as numbers, not modulo 2 pi, which is irrational.
 struct TwoRotations {
-  Rational3 axis;
-  Rational start;  // radians
-  Rational goal;
+  Rotation start;
+  Rotation goal;
+
+  // About one axis, if there is one, which points the way of the start's unless that does not turn.
+  [[nodiscard]] bool one_axis() const {
+    return start.theta == 0 || goal.theta == 0 || is_parallel(start.axis, goal.axis);
+  }
+  [[nodiscard]] const Rational3& axis() const { return start.theta != 0 || goal.theta == 0 ? start.axis : goal.axis; }
+  [[nodiscard]] Rational goal_theta() const {
+    Rational along;
+    for (std::size_t i = 0; i < 3; ++i) along += axis()[i] * goal.axis[i];
+    return along < 0 ? Rational(-goal.theta) : goal.theta;
+  }
 };
 
 TwoRotations rotations_of(const ProblemKeys& keys, const std::string& path) {
-  const Rotation start = rotation_of(keys, "start");
-  const Rotation goal = rotation_of(keys, "goal");
-  for (const auto& [state, rotation] : {std::pair("start", &start), std::pair("goal", &goal)}) {
+  TwoRotations result{rotation_of(keys, "start"), rotation_of(keys, "goal")};
+  for (const auto& [state, rotation] : {std::pair("start", &result.start), std::pair("goal", &result.goal)}) {
     if (rotation->theta != 0 && rotation->axis == Rational3{}) {
       throw InputError(path + ": " + state + ".axis is the zero vector or missing");
     }
   }
-  if (goal.theta == 0) return {start.axis, start.theta, 0};
-  if (start.theta == 0) return {goal.axis, 0, goal.theta};
-  if (!is_parallel(start.axis, goal.axis)) {
-    throw InputError(path +
-                     ": start and goal are turned about different axes, and this planner turns about one: give both "
-                     "the same axis");
-  }
-  Rational along;
-  for (std::size_t i = 0; i < 3; ++i) along += start.axis[i] * goal.axis[i];
-  return {start.axis, start.theta, along < 0 ? Rational(-goal.theta) : goal.theta};
+  return result;
+}
+
+// Of doubles, as OMPL.app computes it.
+std::array<Rational, 4> quaternion_of(const Rotation& rotation) {
+  if (rotation.theta == 0) return {1, 0, 0, 0};
+  const std::array<double, 3> axis{nearest_double(rotation.axis[0]), nearest_double(rotation.axis[1]),
+                                   nearest_double(rotation.axis[2])};
+  const double half = nearest_double(rotation.theta) / 2;
+  const double sine = std::sin(half) / std::hypot(axis[0], axis[1], axis[2]);
+  return {exact_rational(std::cos(half)), exact_rational(sine * axis[0]), exact_rational(sine * axis[1]),
+          exact_rational(sine * axis[2])};
 }
 
 Rational degrees_of(const Rational& radians) { return exact_rational(nearest_double(radians) * 180 / M_PI); }
 
 // A rotation that both states share is applied to the robot once; else the scene is one of a robot that turns.
 void apply_rotations(const TwoRotations& rotations, const std::string& path, Scene& scene, const Monitor& monitor) {
-  if (rotations.start != rotations.goal) {
+  scene.quaternions = {quaternion_of(rotations.start), quaternion_of(rotations.goal)};
+  if (!rotations.one_axis()) {
+    scene.turns_freely = true;
+    return;
+  }
+  const Rational& start = rotations.start.theta;
+  const Rational goal = rotations.goal_theta();
+  if (start != goal) {
     scene.rotation.emplace();
-    scene.rotation->axis = rotations.axis;
-    scene.rotation->start = degrees_of(rotations.start);
-    scene.rotation->goal = degrees_of(rotations.goal);
+    scene.rotation->axis = rotations.axis();
+    scene.rotation->start = degrees_of(start);
+    scene.rotation->goal = degrees_of(goal);
     scene.messages.push_back(path +
                              ": the robot turns about one axis only, by rational rotations within 1e-9 degrees "
                              "of theta at start and goal");
-  } else if (rotations.start != 0) {
+  } else if (start != 0) {
     scene.messages.push_back(path + ": the robot is turned once by a rational rotation within 1e-9 degrees of theta");
-    scene.robot_rotation = AffineMap::rotate(rotations.axis, nearest_double(degrees_of(rotations.start)));
+    scene.robot_rotation = AffineMap::rotate(rotations.axis(), nearest_double(degrees_of(start)));
     scene.robot = transform(scene.robot, scene.robot_rotation, monitor);
   }
 }
@@ -172,11 +189,10 @@ Scene read_cfg(const std::string& path, const MeshOptions& meshes) {
   scene.obstacle_names.push_back(keys.text("world"));
   scene.start = keys.point("start");
   scene.goal = keys.point("goal");
-  scene.messages.push_back(path +
-                           (scene.rotation
-                                ? ": paths are searched for a robot that translates and turns about one axis"
-                                : ": paths are searched for a robot that translates and keeps its orientation") +
-                           "; OMPL.app's robots turn freely");
+  const char* motions = scene.turns_freely ? ": start and goal are turned about different axes, so no path is planned"
+                        : scene.rotation   ? ": paths are searched for a robot that translates and turns about one axis"
+                                         : ": paths are searched for a robot that translates and keeps its orientation";
+  scene.messages.push_back(path + motions + "; OMPL.app's robots turn freely");
   if (keys.has_any("volume.")) {
     scene.box = {keys.point("volume.min"), keys.point("volume.max")};
     for (std::size_t i = 0; i < 3; ++i) {

@@ -39,6 +39,11 @@ Rational3 end_of(const JsonReader& value, Rational* angle) {
 }  // namespace
 
 void require_no_rotation(const Scene& scene) {
+  if (scene.turns_freely) {
+    throw InputError(scene.name +
+                     ": start and goal are turned about different axes, and paths are planned about one: give both the "
+                     "same axis, or certify a given path (--path)");
+  }
   if (!scene.rotation) return;
   throw InputError(scene.name +
                    ": the robot turns, but this works for translations only; plan a path, or remove 'rotation' from "

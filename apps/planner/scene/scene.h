@@ -41,6 +41,10 @@ struct Scene {
   std::optional<Rational3> start;
   std::optional<Rational3> goal;
   std::optional<AxisRotation> rotation;  ///< nothing: it only translates
+  /// How an OMPL.app problem turns the robot of its own file at start and goal: quaternions w, x, y, z.
+  std::optional<std::array<std::array<Rational, 4>, 2>> quaternions;
+  /// Start and goal of an OMPL.app problem are turned about different axes: paths can be certified, none is planned.
+  bool turns_freely = false;
   ContactRule contact = ContactRule::kAllow;
   Messages messages;  ///< what was done to the input
 };
@@ -53,8 +57,8 @@ inline bool is_in_box(const Rational3& position, const std::optional<std::array<
   return true;
 }
 
-/// Throws InputError if the robot of the scene may turn: for what knows translations only, so that no answer about one
-/// orientation passes for an answer about all.
+/// Throws InputError if the robot of the scene may turn, about one axis or freely: for what knows translations only, so
+/// that no answer about one orientation passes for an answer about all.
 void require_no_rotation(const Scene& scene);
 
 /// How scenes read meshes unless told otherwise, like all programs: what is enclosed at least once is solid.
@@ -82,7 +86,8 @@ Scene parse_scene(const std::string& text, const std::string& folder, const std:
 
 /// An OMPL.app problem: [problem] robot, world, start.*, goal.*, volume.*. If the rotations of start and goal are the
 /// same, that one is applied to the robot once, and answers hold for translations at that orientation, as a message
-/// says; if they differ, they must be about one axis, and the robot may turn about that, by any angle. The robot's
+/// says; if they differ about one axis, the robot may turn about that, by any angle; if the axes differ, too, paths can
+/// be certified, but none is planned. The robot's
 /// reference point (also the centre of rotation) is the mean of its vertices as OMPL.app computes it, unless
 /// `robot.origin = mesh`; our own keys are `contact` and exact numbers such as 1/3. A mesh that bounds no solid is what
 /// meaning_of (nearly_closed.h) says.

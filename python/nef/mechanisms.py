@@ -207,6 +207,15 @@ class CheckedMotion(NamedTuple):
         return self.status == "path"
 
 
+class Joint(NamedTuple):
+    """A joint of a file that has a value."""
+
+    name: str
+    #: limits of its value; -pi and pi for a continuous joint
+    lower: float
+    upper: float
+
+
 class Linkage:
     """A robot of several links, joined by hinges and sliders. Whole motions of its joints are proved free, or collide.
 
@@ -225,6 +234,35 @@ class Linkage:
         self._links = [("base", base, "fixed", 0, (0, 0, 0), (1, 0, 0, 0), (0, 0, 1))]
         self._allowed = []
         self._checker = None  # the last one, and its obstacles
+        self._limits = None
+
+    @classmethod
+    def read(cls, urdf: Any, srdf: Any = None, *, crossings: str = "union", close: float = 0) -> "Linkage":
+        """The robot of a URDF file: joints that are fixed, revolute, continuous or prismatic, boxes and meshes as collision
+        geometry. Changes to its meshes are reported as warnings.
+
+        - srdf: an SRDF file, whose disabled collisions are left out
+        - crossings, close: how meshes are read, as in nef.from_mesh
+        """
+        links, allowed, messages = _planner.read_urdf(os.fspath(urdf), "" if srdf is None else os.fspath(srdf), crossings,
+                                                      close)
+        robot = cls()
+        robot._links = [link[:7] for link in links]
+        robot._allowed = [list(pair) for pair in allowed]
+        robot._limits = [Joint(*link[7:]) for link in links[1:] if link[2] != "fixed"]
+        for message in messages:
+            warnings.warn(message, stacklevel=2)
+        return robot
+
+    @property
+    def joints(self) -> Optional[List[Joint]]:
+        """Of a robot from a file: the joints with a value, in the order of values; else None."""
+        return self._limits
+
+    @property
+    def links(self) -> List[str]:
+        """The names of all links, the base first."""
+        return [link[0] for link in self._links]
 
     def add(self, name: str, body: Optional[Polyhedron] = None, parent: str = "base", kind: str = "fixed",
             shift: Any = (0, 0, 0), turn: Any = (1, 0, 0, 0), axis: Any = (0, 0, 1)) -> None:

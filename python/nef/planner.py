@@ -23,13 +23,13 @@ from . import _planner
 from ._nef import Polyhedron
 from .assemblies import (Disassembly, DisassemblyStep, FreeDirections, Inseparable, Undecided, disassemble, free_directions)
 from .errors import Error, InputError, InputWarning
-from .mechanisms import (CheckedMotion, Hinge, Linkage, Overlap, PairVerdict, PartVerdict, RangeEnd, RangePart, Screw, Slider,
+from .mechanisms import (CheckedMotion, Hinge, Joint, Linkage, Overlap, PairVerdict, PartVerdict, RangeEnd, RangePart, Screw, Slider,
                          Stop, Verdict, range_of_motion, verdict)
 
 Exact3 = Tuple[Fraction, Fraction, Fraction]
 
 __all__ = ["Cell", "CertifiedPath", "CheckedMotion", "CollidingPose", "Component", "Disassembly", "DisassemblyStep",
-           "FreeDirections", "Hinge", "Inseparable", "Linkage", "Overlap", "PairVerdict",
+           "FreeDirections", "Hinge", "Inseparable", "Joint", "Linkage", "Overlap", "PairVerdict",
            "PartVerdict", "Plan", "Proof", "RangeEnd", "RangePart", "Rotation", "Scene", "Screw", "Slider", "Stop", "Thinness",
            "TightPassage", "TurningProof", "Undecided", "Verdict", "Widest", "disassemble", "free_directions", "range_of_motion", "read", "verdict"]
 

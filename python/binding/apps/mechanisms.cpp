@@ -5,10 +5,12 @@
 #include <pybind11/stl.h>
 
 #include "apps/planner/linkage/linkage_checker.h"
+#include "apps/planner/linkage_urdf/urdf_robot.h"
 #include "apps/planner/mechanism/range_of_motion.h"
 #include "apps/planner/verdict/verdict.h"
 #include "binding/apps/planner.h"
 #include "binding/base/bindings.h"
+#include "binding/base/mesh_options.h"
 
 namespace nef::python {
 namespace {
@@ -164,6 +166,29 @@ py::tuple check_linkage(const std::shared_ptr<plan::LinkageChecker>& checker, co
   return py::make_tuple(status, found.parameter, found.link, found.other, found.undecided);
 }
 
+// (links, allowed, messages); a link is (name, body, kind, parent, shift, turn, axis, joint, lower, upper).
+py::tuple read_urdf(const std::string& file, const std::string& srdf, const std::string& crossings, double close) {
+  MeshOptions meshes = mesh_options(crossings, close);
+  const plan::UrdfRobot robot = call(kSmallCall, [=](const Monitor& monitor) mutable {
+    meshes.monitor = monitor;
+    return plan::read_urdf(file, srdf, meshes);
+  });
+  const auto floats = [](const plan::Vector3d& v) { return py::make_tuple(v[0], v[1], v[2]); };
+  py::list links;
+  for (const plan::UrdfLink& link : robot.links) {
+    using Kind = plan::LinkageJoint::Kind;
+    const plan::LinkageJoint& joint = link.joint;
+    const char* kind = joint.kind == Kind::kRevolute    ? "revolute"
+                       : joint.kind == Kind::kPrismatic ? "prismatic"
+                                                        : "fixed";
+    const std::array<double, 4>& q = joint.turn;
+    links.append(py::make_tuple(link.name, link.shape, kind, joint.parent, floats(joint.shift),
+                                py::make_tuple(q[0], q[1], q[2], q[3]), floats(joint.axis), link.joint_name, link.lower,
+                                link.upper));
+  }
+  return py::make_tuple(links, robot.allowed, robot.messages);
+}
+
 }  // namespace
 
 void bind_mechanisms(py::module_& m) {
@@ -171,6 +196,8 @@ void bind_mechanisms(py::module_& m) {
   m.def("read_parts", &read_parts);
   m.def("range_of_motion", &range_of_motion);
   m.def("range_of_file", &range_of_file);
+  m.def("read_urdf", &read_urdf);
+  m.def("reads_urdf", &plan::reads_urdf);
   py::class_<plan::LinkageChecker, std::shared_ptr<plan::LinkageChecker>>(m, "LinkageChecker")
       .def(py::init(&linkage_checker))
       .def("check", &check_linkage)

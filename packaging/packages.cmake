@@ -97,7 +97,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libgmp-dev, libtbb-dev, libzip-dev, libexpat1-dev")
 # For the components view, visual_hull and planner of find_package(nef).
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS
-    "libpng-dev, zlib1g-dev, libopencv-dev, libeigen3-dev, libfmt-dev, libmatio-dev, libompl-dev, libassimp-dev, libboost-dev")
+    "libpng-dev, zlib1g-dev, libopencv-dev, libeigen3-dev, libfmt-dev, libmatio-dev, libompl-dev, libassimp-dev, libboost-dev, liburdfdom-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
     "static libraries and headers\n Nef polyhedra with exact arithmetic, Minkowski sums, visual hulls from\n silhouettes, a planner for translating robots, and pages to look at them.")
 set(CPACK_DEBIAN_PROGRAMS_PACKAGE_NAME ${package_of_programs})

@@ -14,6 +14,8 @@ nef_test_packages=(catch2 librapidcheck-dev chromium npm libopenmpi-dev openmpi-
   python3-pytest python3-meshio python3-matplotlib python3-pip python3-wheel)
 # The peer that results are compared with where it is there, which takes minutes to compile: CI wants it.
 nef_oracle_packages=(libcgal-dev)
+# What the suite can do without: robots from URDF files, and a peer of bench/planner/certify_ompl.
+nef_optional_packages=(liburdfdom-dev libfcl-dev)
 # Programs that read what the suite writes; CI asks those that it can install.
 nef_foreign_packages=(admesh assimp-utils openscad prusa-slicer)
 # The site of the documentation (scripts/docs.sh).

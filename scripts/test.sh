@@ -5,6 +5,7 @@ cd "$(dirname "$0")/.."
 source scripts/setup.sh
 preset=${NEF_PRESET:-test}
 install_missing "${nef_packages[@]}" "${nef_test_packages[@]}"
+install_missing "${nef_optional_packages[@]}" || echo "not installed: ${nef_optional_packages[*]}"
 [ "$preset" = test ] || install_missing "${nef_oracle_packages[@]}"
 # With ccache, a clone elsewhere finds what this one has compiled.
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1

@@ -21,6 +21,8 @@
 #include <fcl/narrowphase/continuous_collision.h>
 #endif
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
@@ -145,7 +147,7 @@ ob::RealVectorBounds bounds_of(const Scene& scene, const MotionChecker& checker)
       continue;
     }
     const RigidBody::Node& all = checker.obstacles().nodes().front();
-    const double ends[] = {nearest_double((*scene.start)[i]), nearest_double((*scene.goal)[i])};
+    const std::array ends{nearest_double((*scene.start)[i]), nearest_double((*scene.goal)[i])};
     bounds.setLow(i, std::min({all.centre[i] - all.half[i], ends[0], ends[1]}) - all.half[i] / 5);
     bounds.setHigh(i, std::max({all.centre[i] + all.half[i], ends[0], ends[1]}) + all.half[i] / 5);
   }

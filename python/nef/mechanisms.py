@@ -207,6 +207,11 @@ class CheckedMotion(NamedTuple):
         return self.status == "path"
 
 
+def reads_urdf() -> bool:
+    """Whether Linkage.read() works: the package was built with urdfdom (Debian: liburdfdom-dev)."""
+    return _planner.reads_urdf()
+
+
 class Joint(NamedTuple):
     """A joint of a file that has a value."""
 

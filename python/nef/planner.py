@@ -24,14 +24,15 @@ from ._nef import Polyhedron
 from .assemblies import (Disassembly, DisassemblyStep, FreeDirections, Inseparable, Undecided, disassemble, free_directions)
 from .errors import Error, InputError, InputWarning
 from .mechanisms import (CheckedMotion, Hinge, Joint, Linkage, Overlap, PairVerdict, PartVerdict, RangeEnd, RangePart, Screw, Slider,
-                         Stop, Verdict, range_of_motion, verdict)
+                         Stop, Verdict, range_of_motion, reads_urdf, verdict)
 
 Exact3 = Tuple[Fraction, Fraction, Fraction]
 
 __all__ = ["Cell", "CertifiedPath", "CheckedMotion", "CollidingPose", "Component", "Disassembly", "DisassemblyStep",
            "FreeDirections", "Hinge", "Inseparable", "Joint", "Linkage", "Overlap", "PairVerdict",
            "PartVerdict", "Plan", "Proof", "RangeEnd", "RangePart", "Rotation", "Scene", "Screw", "Slider", "Stop", "Thinness",
-           "TightPassage", "TurningProof", "Undecided", "Verdict", "Widest", "disassemble", "free_directions", "range_of_motion", "read", "verdict"]
+           "TightPassage", "TurningProof", "Undecided", "Verdict", "Widest", "disassemble", "free_directions", "range_of_motion", "read",
+           "reads_urdf", "verdict"]
 
 
 class Cell(NamedTuple):

@@ -90,6 +90,24 @@ def test_range_of_motion(needs, tmp_path):
         planner.range_of_motion(door, [post], planner.Hinge(), 90, 0)
 
 
+def test_robots_from_urdf_files(needs):
+    planner = needs("planner")
+    folder = pathlib.Path(__file__).resolve().parents[2] / "data/planner/linkage"
+    if not planner.reads_urdf():
+        with pytest.raises(nef.InputError, match="liburdfdom-dev"):
+            planner.Linkage.read(folder / "crane.urdf")
+        return
+    crane = planner.Linkage.read(folder / "crane.urdf", folder / "crane.srdf")
+    assert crane.links == ["ground", "mast", "boom", "jib", "hook"]
+    assert [joint.name for joint in crane.joints] == ["slew", "luff", "reach"]
+    assert crane.joints[0].upper == pytest.approx(math.pi) and crane.joints[2] == ("reach", 0, 1.5)
+    box = nef.box((3, -1, 1), (4, 1, 3))
+    assert crane.check([0, 0, 0], [0, 0, 0.5], [box])
+    assert crane.check([math.pi / 2, 0, 1], [-math.pi / 2, 0, 1], [box]).status == "blocked"
+    with pytest.raises(nef.InputError):
+        planner.Linkage.read(folder / "crane.srdf")
+
+
 def test_linkages(needs):
     planner = needs("planner")
     robot = planner.Linkage()

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/command/runs.h"
 
+#include <Eigen/Geometry>
 #include <iostream>
 
 #include "apps/planner/command/findings.h"
+#include "apps/planner/command/scene_view.h"
 #include "apps/planner/rigid/certified_path.h"
 #include "apps/program/exact_json.h"
 #include "nef/base/error.h"
@@ -31,7 +33,14 @@ json motion_json(const MotionVerdict& verdict) {
     result["collision"]["parameter"] = verdict.parameter;
   }
   if (verdict.status == MotionVerdict::Status::kUndecided) {
-    for (const auto& part : verdict.undecided) result["undecided"].push_back({part[0], part[1]});
+    json& ranges = result["undecided"];
+    for (const auto& part : verdict.undecided) {
+      if (!ranges.empty() && ranges.back()[1] == part[0]) {
+        ranges.back()[1] = part[1];
+      } else {
+        ranges.push_back({part[0], part[1]});
+      }
+    }
   }
   return result;
 }
@@ -68,11 +77,54 @@ void print(const CertifiedPath& path) {
   std::cout << '\n';
 }
 
+AffineMap map_of(const RigidPose& pose) {
+  AffineMap map = AffineMap::identity();
+  map.linear = rotation_between(pose.quaternion, pose.quaternion);
+  map.translation = pose.position;
+  return map;
+}
+
+Eigen::Quaterniond unit_quaternion(const RigidPose& pose) {
+  const Quaternion& q = pose.quaternion;
+  return Eigen::Quaterniond(nearest_double(q[0]), nearest_double(q[1]), nearest_double(q[2]), nearest_double(q[3]))
+      .normalized();
+}
+
+// The robot moves along the path; a blocked one ends at the pose that is known to collide.
+std::vector<view::Layer> certified_layers(const CertifiedPath& path, std::vector<RigidPose> poses, const Scene& scene,
+                                          const MotionChecker& checker) {
+  if (path.blocked) {
+    poses.resize(*path.blocked + 1);
+    poses.push_back(*path.motions[*path.blocked].pose);
+  }
+  std::vector<view::Layer> layers = scene_layers(scene, map_of(poses.front()), map_of(poses.back()), true, nullptr);
+  std::vector<Rational3> points;
+  std::vector<double> lengths;
+  std::vector<Eigen::Quaterniond> turns;
+  const double reach = checker.robot().nodes().front().reach;
+  for (const RigidPose& pose : poses) {
+    Eigen::Quaterniond turn = unit_quaternion(pose);
+    if (!turns.empty()) {
+      if (turn.dot(turns.back()) < 0) turn.coeffs() *= -1;  // the shorter arc
+      lengths.push_back((to_vector(pose.position) - to_vector(points.back())).norm() +
+                        reach * turn.angularDistance(turns.back()));
+    }
+    points.push_back(pose.position);
+    turns.push_back(turn);
+  }
+  const auto turn_at = [&](std::size_t i) {
+    const Eigen::Quaterniond turn = turns[i] * turns.front().conjugate();
+    return std::array{turn.w(), turn.x(), turn.y(), turn.z()};
+  };
+  move_along(points, lengths, turn_at, layers);
+  return layers;
+}
+
 }  // namespace
 
 int run_certify(const Arguments& a, const Scene& scene, const std::vector<RigidPose>& poses) {
-  exclude(a, "a path with rotations", {"--tight", "--queries", "--page", "--widest", "--widest-box"});
-  require_extensions(a, "for a path with rotations", {"json"});
+  exclude(a, "a path with rotations", {"--tight", "--queries", "--widest", "--widest-box"});
+  require_extensions(a, "for a path with rotations", {"json", "glb", "html"});
   const Stopwatch watch;
   const Scene unturned = with_robot_as_in_its_file(scene, a.session.monitor);
   const MotionChecker checker = MotionChecker::of_scene(unturned, a.session.monitor);
@@ -85,7 +137,9 @@ int run_certify(const Arguments& a, const Scene& scene, const std::vector<RigidP
            scene.name,
            [&] { return certified_json(path, poses, scene); },
            {{"setup", setup_s, {}}, {"op", watch.seconds() - setup_s, {}}},
-           [&] { print(path); }});
+           [&] { print(path); },
+           nullptr,
+           [&] { return certified_layers(path, poses, unturned, checker); }});
   if (path.status == MotionVerdict::Status::kFree) return 0;
   return path.status == MotionVerdict::Status::kCollides ? 1 : 5;
 }

@@ -39,7 +39,8 @@ int run_verdict(const Arguments& a);
 /// --assembly: takes it apart. 0 a sequence, 1 inseparable, 3 parts overlap, 5 undecided.
 int run_assembly(const Arguments& a);
 
-/// --path with poses that are turned: certifies it. 0 every motion is free, 1 one collides, 5 undecided.
+/// --path with poses that are turned: certifies it, and shows the robot moving along it (a blocked path up to the pose
+/// that collides). 0 every motion is free, 1 one collides, 5 undecided.
 int run_certify(const Arguments& a, const Scene& scene, const std::vector<RigidPose>& poses);
 
 /// A scene whose robot only translates: paths, queries, the path of --path (`given`), OMPL's planners. `widest`, if not

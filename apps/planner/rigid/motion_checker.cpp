@@ -32,7 +32,7 @@ class MotionExamination {
     if (!checker_.in_box(motion_.to().position)) return collision_outside(1);
     if (limits_.in_order) {
       if (collides_at(0)) verdict_.free_until = 0;
-    } else if (collides_at(0) || collides_at(1)) {
+    } else if (collides_at(1) || collides_at(0)) {  // planners begin where nothing collides
       return verdict_;
     }
     if (verdict_.status == MotionVerdict::Status::kCollides) return verdict_;
@@ -109,8 +109,7 @@ class MotionExamination {
     const RigidBody::Piece& a = checker_.robot_.pieces()[robot];
     const RigidBody::Piece& b = checker_.obstacles_.pieces()[obstacle];
     place(a, cell, rough_robot_);
-    place(b, rough_obstacle_);
-    const Separation separation = plane_between(rough_robot_, rough_obstacle_);
+    const Separation separation = plane_between(rough_robot_, checker_.rough_obstacles_[obstacle]);
     if (separation == Separation::kApart) return true;
     if (separation != Separation::kPerhaps || exact_tests_ >= limits_.max_exact) return false;
     // What touches in the closed sense is no case for smaller parts, but for the pose at which it does.
@@ -141,8 +140,7 @@ class MotionExamination {
     const RigidBody::Piece& a = checker_.robot_.pieces()[robot];
     const RigidBody::Piece& b = checker_.obstacles_.pieces()[obstacle];
     place(a, cell, rough_robot_);
-    place(b, rough_obstacle_);
-    if (plane_between(rough_robot_, rough_obstacle_) == Separation::kApart) return false;
+    if (plane_between(rough_robot_, checker_.rough_obstacles_[obstacle]) == Separation::kApart) return false;
     keep_face_normals(a, cell, rough_robot_);
     const bool between = s != 0 && s != 1;
     const double slack = between ? cells_.position_error() : 0;
@@ -162,12 +160,14 @@ class MotionExamination {
   std::size_t exact_tests_ = 0;
   MotionVerdict verdict_;
   RoughPolytope rough_robot_;
-  RoughPolytope rough_obstacle_;
 };
 
 MotionChecker::MotionChecker(RigidBody robot, RigidBody obstacles, ContactRule contact,
                              std::optional<std::array<Rational3, 2>> box)
-    : robot_(std::move(robot)), obstacles_(std::move(obstacles)), contact_(contact), box_(std::move(box)) {}
+    : robot_(std::move(robot)), obstacles_(std::move(obstacles)), contact_(contact), box_(std::move(box)) {
+  rough_obstacles_.resize(obstacles_.pieces().size());
+  for (std::size_t i = 0; i < rough_obstacles_.size(); ++i) place(obstacles_.pieces()[i], rough_obstacles_[i]);
+}
 
 MotionChecker MotionChecker::of_scene(const Scene& scene, const Monitor& monitor) {
   std::vector<RigidBody> obstacles;

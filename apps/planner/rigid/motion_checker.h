@@ -12,6 +12,7 @@
 #include "apps/planner/rigid/motion_cell.h"
 #include "apps/planner/rigid/rigid_body.h"
 #include "apps/planner/rigid/rigid_motion.h"
+#include "apps/planner/rigid/separation.h"
 #include "apps/planner/scene/scene.h"
 #include "nef/base/monitor.h"
 
@@ -106,6 +107,7 @@ class MotionChecker {
 
   RigidBody robot_;
   RigidBody obstacles_;
+  std::vector<RoughPolytope> rough_obstacles_;  // of each piece
   ContactRule contact_;
   std::optional<std::array<Rational3, 2>> box_;
 };

@@ -89,6 +89,15 @@ TEST_CASE("planner --path certifies poses that are turned", "[rigid]") {
   const Run blocked = planner(folder, scene + " --json --path " + bad);
   CHECK(blocked.code == 1);
   CHECK_THAT(blocked.out, Catch::Contains(R"("blocked_segment": 1)") && Catch::Contains(R"("status": "blocked")"));
+  // To look at: the robot moves, and a blocked path ends where it collides.
+  const std::string shown = " --page " + folder.file("p.html") + " -o " + folder.file("p.glb");
+  CHECK(planner(folder, scene + " --path " + good + shown).code == 0);
+  CHECK(planner(folder, scene + " --path " + bad + " -o " + folder.file("bad.glb")).code == 1);
+  for (const char* file : {"p.glb", "bad.glb"}) {
+    CHECK_THAT(text_of(folder.file(file)),
+               Catch::Contains(R"("path":"rotation")") && Catch::Contains(R"("path":"translation")"));
+  }
+  CHECK_THAT(text_of(folder.file("p.html")), Catch::Contains("</html>"));
   const Run refused = planner(folder, scene + " --tight --path " + good);
   CHECK(refused.code == 2);
   CHECK_THAT(refused.err, Catch::Contains("a path with rotations excludes --tight"));

@@ -1,0 +1,57 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""bench/planner/certify_ompl.py makes the table of what the program prints. certify_ompl_test.py SCRIPT FOLDER
+
+The program is one of the test's own, so that no planner and no build of the benchmarks is needed.
+"""
+import json
+import pathlib
+import subprocess
+import sys
+
+
+def run_of(check, status, raw, simplified, seconds):
+    paths = {}
+    if status == "Exact solution":
+        for kind, what in (("raw", raw), ("simplified", simplified)):
+            paths[kind] = {"status": what, "seconds": 0.001, "motions": 3}
+            if what == "collides":
+                paths[kind].update(motion=1, parameter=0.5, position=[1.5, 2.0, -0.25], quaternion=[1.0, 0.0, 0.0, 0.0])
+        paths["simplify_seconds"] = 0.5
+    return {"check": check, "planner": "RRT", "scene": "a", "seconds": seconds, "motions": 100, "status": status,
+            "solved": status == "Exact solution", **paths}
+
+
+def main():
+    script, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+    folder.mkdir(parents=True, exist_ok=True)
+    for name in ("a.cfg", "b.cfg", "refused.cfg"):
+        (folder / name).write_text("[problem]\n")
+    runs = [
+        run_of("fcl:0.01", "Exact solution", "free", "collides", 1.0),
+        run_of("fcl:0.01", "Exact solution", "free", "free", 2.0),
+        run_of("fcl:0.01", "Exact solution", "undecided", "free", 4.0),
+        run_of("fcl:0.01", "Timeout", "", "", 5.0),
+        run_of("certified", "Exact solution", "free", "free", 0.25),
+    ]
+    lines = "\n".join(json.dumps(run) for run in runs)
+    program = folder / "bench_planner_certify_ompl"
+    program.write_text("#!/bin/sh\ncase $1 in *refused*) echo 'no such mesh' >&2; exit 2;; esac\n"
+                       f"cat <<'END'\n{lines}\nEND\n")
+    program.chmod(0o755)
+    result = subprocess.run([sys.executable, script, "--bin", folder, "--scenes", folder, "--only", "a,refused", "--planners", "RRT",
+                             "--checks", "fcl:0.01,continuous,certified", "--poses"], capture_output=True, text=True, timeout=60)
+    wanted = [
+        "| a | RRT | fcl:0.01 | 3 of 4 | 2 | 1 (0) | 1 | 2 | 0.5 | 0.001 | 30000 |",
+        "| a | RRT | certified | 1 of 1 | 1 | 0 (0) | 0 | 0.25 | 0.5 | 0.001 | 2500 |",
+        "a, RRT, fcl:0.01: x y z qw qx qy qz = 1.5 2.0 -0.25 1.0 0.0 0.0 0.0",
+    ]
+    rows = [line for line in result.stdout.splitlines() if line.startswith(("| a ", "| b ", "a, "))]
+    if result.returncode != 0 or rows != wanted or "refused: no such mesh" not in result.stderr:
+        print(result.stdout, result.stderr, sep="\n")
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -141,7 +141,7 @@ def verdict(parts: Parts, exact: bool = False) -> Verdict:
 
         >>> import nef
         >>> from nef import planner
-        >>> block = nef.box((0, 0, 0), (3, 3, 3)) - nef.box((1, 1, 1), (2, 2, 3)).interior()
+        >>> block = nef.box((0, 0, 0), (3, 3, 3)) - nef.box((1, 1, 1), (2, 2, 4)).interior()
         >>> judged = planner.verdict({"block": block, "peg": nef.box((1, 1, 1), (2, 2, 4))})
         >>> judged.parts[1].status, [int(x) for x in judged.parts[1].direction]
         ('removable', [0, 0, 1])

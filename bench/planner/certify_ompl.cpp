@@ -242,7 +242,7 @@ int run(int argc, char** argv) {
   if (argc > 4) request.seconds = std::atof(argv[4]);
   ompl::RNG::setSeed(argc > 5 ? static_cast<unsigned>(std::atoi(argv[5])) : 1);
   const Scene scene = with_robot_as_in_its_file(read_scene(argv[1]));
-  if (!scene.quaternions || !scene.start || !scene.goal) throw InputError("no .cfg file of OMPL.app");
+  if (!scene.quaternions || !scene.start || !scene.goal) throw InputError("not a .cfg file of OMPL.app");
   const auto checker = std::make_shared<const MotionChecker>(MotionChecker::of_scene(scene));
   std::istringstream checks(argc > 6 ? argv[6] : "exact:0.01,fcl:0.01,fcl:0.001,continuous,certified");
   for (std::string check; std::getline(checks, check, ',');) plan(scene, checker, request, check);

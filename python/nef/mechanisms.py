@@ -256,7 +256,7 @@ class Linkage:
         robot._allowed = [list(pair) for pair in allowed]
         robot._limits = [Joint(*link[7:]) for link in links[1:] if link[2] != "fixed"]
         for message in messages:
-            warnings.warn(message, stacklevel=2)
+            warnings.warn(message, InputWarning, stacklevel=2)
         return robot
 
     @property

@@ -41,7 +41,8 @@ bool reads_urdf() { return false; }
 UrdfRobot read_urdf(const std::string& file, const std::string& srdf, const MeshOptions& meshes) {
   static_cast<void>(srdf);
   static_cast<void>(meshes);
-  throw InputError(file + ": this build reads no URDF files: install urdfdom (Debian: liburdfdom-dev) and build again");
+  throw InputError(file +
+                   ": this build does not read URDF files: install urdfdom (Debian: liburdfdom-dev) and build again");
 }
 
 #else
@@ -59,7 +60,7 @@ class UrdfComplaints : public console_bridge::OutputHandler {
     if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) last = text.substr(0, text.find('\n'));
   }
 
-  std::string last = "it is no robot";
+  std::string last = "it is not a robot";
 };
 
 class UrdfReader {
@@ -76,7 +77,7 @@ class UrdfReader {
       } catch (const std::exception& error) {
         complaints.last = error.what();
       }
-      if (!model || !model->getRoot()) throw InputError(file_ + ": no URDF file: " + complaints.last);
+      if (!model || !model->getRoot()) throw InputError(file_ + ": not a URDF file: " + complaints.last);
     }
     robot_.name = model->getName();
     add(*model->getRoot(), 0);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/planner/partition/exact_point.h"
 #include "nef/base/error.h"
 #include "nef/geometry/predicates.h"
 

@@ -116,9 +116,9 @@ TEST_CASE("mistakes in URDF and SRDF files are told in one line") {
     std::string word;
   };
   for (const Bad& bad : std::vector<Bad>{
-           {"no xml", "no URDF file"},
-           {"<robot name='r'></robot>", "no URDF file"},
-           {robot("", box), "no URDF file"},
+           {"no xml", "not a URDF file"},
+           {"<robot name='r'></robot>", "not a URDF file"},
+           {robot("", box), "not a URDF file"},
            {robot(joint("floating", ""), box), "neither fixed"},
            {robot(joint("planar", ""), box), "neither fixed"},
            {robot(joint("revolute", "<axis xyz='0 0 1'/>" + limit + "<mimic joint='j'/>"), box), "mimics"},

@@ -60,7 +60,7 @@ class UrdfComplaints : public console_bridge::OutputHandler {
     if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) last = text.substr(0, text.find('\n'));
   }
 
-  std::string last = "it is not a robot";
+  std::string last = "it contains no robot";
 };
 
 class UrdfReader {

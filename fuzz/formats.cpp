@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/planner/linkage_urdf/urdf_robot.h"
 #include "apps/planner/path/path_file.h"
 #include "apps/planner/proofs/inseparable_proof.h"
 #include "apps/planner/proofs/proof_file.h"
@@ -257,6 +258,26 @@ void read_path_lines(const std::string& text) {
   static_cast<void>(planner::read_path(file));
 }
 
+std::string urdf_robot(const Polyhedron& /*set*/, const std::string& /*text*/) {
+  return R"(<?xml version="1.0"?>
+<robot name="arm">
+  <link name="base"><collision><origin xyz="0 0 -.5" rpy="0 0 .25"/><geometry><box size="4 4 1"/></geometry></collision></link>
+  <link name="lower"/>
+  <link name="upper"><collision><geometry><box size="1 .5 .25"/></geometry></collision></link>
+  <joint name="turn" type="revolute"><parent link="base"/><child link="lower"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/></joint>
+  <joint name="slide" type="prismatic"><parent link="lower"/><child link="upper"/><origin xyz="1 0 1e-1"/><axis xyz="1 0 0"/>
+    <limit lower="0" upper="1" effort="1" velocity="1"/></joint>
+</robot>)";
+}
+
+void read_urdf_robot(const std::string& text) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.file("robot.urdf");
+  write_file(file, text);
+  if (planner::reads_urdf()) static_cast<void>(planner::read_urdf(file));
+}
+
 std::string proof_of_path(const Polyhedron& /*set*/, const std::string& /*text*/) {
   return R"({"claim": {"box": [["-9", "-9", "-9"], ["9", "9", "9"]], "contact": "allow",
   "obstacles": [[["-3", "3/2", "-3"], ["3", "3", "-3"], ["3", "3", "3"]]],
@@ -329,6 +350,7 @@ std::vector<Format> other_formats() {
       Format{"waypoints", waypoints, read_waypoints_file},
       Format{"rigid-path", rigid_path, read_waypoints_file},
       Format{"path-lines", path_lines, read_path_lines},
+      Format{"urdf", urdf_robot, read_urdf_robot},
       Format{"path-proof", proof_of_path, read_proof_file},
       Format{"collision-proof", proof_of_collision, read_proof_file},
       Format{"barrier-proof", proof_of_barrier, read_proof_file},

@@ -12,7 +12,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 FOLDERS = ["nef/io", "nef/io/mesh", "nef/io/native", "nef/io/cgal", "apps/program/expression", "apps/program", "apps/nef/command/apply",
            "apps/visual_hull/formats", "apps/planner/scene", "apps/planner/path",
-           "apps/planner/proofs", "apps/planner/rigid"]
+           "apps/planner/proofs", "apps/planner/rigid", "apps/planner/linkage_urdf"]
 
 # What the fuzzer takes its readers from: its own list, and the table of mesh formats.
 FUZZED = ["fuzz/formats.cpp", "nef/io/mesh/mesh_formats.cpp"]

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// urdfdom parses the file and checks that links form a tree, which is walked from the root. An SRDF file is XML of
-// which only one element counts. Without urdfdom only the refusal is compiled.
+// urdfdom parses the file and checks that links form a tree, which is walked from the root. It follows nested elements
+// by recursion, so the document is looked at first. An SRDF file is XML of which only one element counts. Without
+// urdfdom only the refusal is compiled.
 #include "apps/planner/linkage_urdf/urdf_robot.h"
 
 #include "nef/base/error.h"
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <mutex>
 
 #include "apps/planner/rigid/rigid_motion.h"
 #include "apps/planner/scene/shapes.h"
@@ -49,10 +51,11 @@ UrdfRobot read_urdf(const std::string& file, const std::string& srdf, const Mesh
 
 namespace {
 
-// The last complaint of urdfdom, which else goes to the console.
+// The last complaint of urdfdom, which else goes to the console. There is one console for the whole process, so one
+// file is parsed at a time.
 class UrdfComplaints : public console_bridge::OutputHandler {
  public:
-  UrdfComplaints() { console_bridge::useOutputHandler(this); }
+  UrdfComplaints() : alone_(mutex()) { console_bridge::useOutputHandler(this); }
   ~UrdfComplaints() override { console_bridge::restorePreviousOutputHandler(); }
   UrdfComplaints(const UrdfComplaints&) = delete;
   UrdfComplaints& operator=(const UrdfComplaints&) = delete;
@@ -61,7 +64,38 @@ class UrdfComplaints : public console_bridge::OutputHandler {
   }
 
   std::string last = "it contains no robot";
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex result;
+    return result;
+  }
+
+  std::lock_guard<std::mutex> alone_;
 };
+
+// Throws FileError or InputError unless the text is well-formed XML without a document type, of few levels and not too
+// many links: urdfdom and the walk over the links would take a stack of any depth.
+void check_document(const std::string& file, const std::string& text) {
+  constexpr std::size_t kMostLevels = 64;
+  constexpr std::size_t kMostLinks = 10'000;
+  std::size_t level = 0;
+  std::size_t links = 0;
+  std::optional<XmlEvents> events;
+  events.emplace(
+      file,
+      [&](const XmlElement& element) {
+        if (++level > kMostLevels) {
+          throw InputError(events->place() + ": elements are nested more than " + std::to_string(kMostLevels) +
+                           " deep");
+        }
+        if (element.name == "link" && ++links > kMostLinks) {
+          throw InputError(events->place() + ": there are more than " + std::to_string(kMostLinks) + " links");
+        }
+      },
+      [&](const std::string&) { --level; });
+  events->parse(text, true);
+}
 
 class UrdfReader {
  public:
@@ -69,6 +103,7 @@ class UrdfReader {
 
   UrdfRobot read() {
     const std::string text = read_file(file_);
+    check_document(file_, text);
     urdf::ModelInterfaceSharedPtr model;
     {
       UrdfComplaints complaints;

@@ -22,6 +22,12 @@ namespace {
 
 std::string crane(const std::string& extension) { return source_folder() + "/data/planner/linkage/crane." + extension; }
 
+std::string repeated(const std::string& text, std::size_t times) {
+  std::string result;
+  for (std::size_t i = 0; i < times; ++i) result += text;
+  return result;
+}
+
 RigidBody box_body(const Rational3& low, const Rational3& high) { return RigidBody::of_set(make_box(low, high)); }
 
 }  // namespace
@@ -116,7 +122,11 @@ TEST_CASE("mistakes in URDF and SRDF files are told in one line") {
     std::string word;
   };
   for (const Bad& bad : std::vector<Bad>{
-           {"no xml", "not a URDF file"},
+           {"no xml", "bad.urdf:1"},
+           {"<!DOCTYPE robot [<!ENTITY a 'b'>]>" + robot(hinge, box), "bad.urdf:1"},
+           {"<robot name='r'>" + repeated("<a>", 100'000) + repeated("</a>", 100'000) + "</robot>",
+            "more than 64 deep"},
+           {"<robot name='r'>" + repeated("<link name='a'/>", 10'001) + "</robot>", "more than 10000 links"},
            {"<robot name='r'></robot>", "not a URDF file"},
            {robot("", box), "not a URDF file"},
            {robot(joint("floating", ""), box), "neither fixed"},

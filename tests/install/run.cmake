@@ -65,7 +65,7 @@ if(SHARED)
       message(FATAL_ERROR "${library} exports what is not the suite's: ${symbols}")
     endif()
   endforeach()
-  run(${WORK}/installed/bin/nef eval "volume(box(0,0,0, 1,2,3))")
+  run(${WORK}/installed/bin/nef eval "box(0,0,0, 1,2,3)" --json)
 endif()
 
 # Without CMake.

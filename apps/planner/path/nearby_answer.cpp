@@ -244,7 +244,7 @@ class NearSearch {
 // Has the scene start and goal, is the robot a bounded solid, are obstacles bounded and may be touched, and is one of
 // them at least a large mesh that bounds no solid? (For solids a wide answer costs less.)
 bool is_of_surfaces(const Scene& scene) {
-  if (scene.rotation || scene.contact != ContactRule::kAllow || !scene.start || !scene.goal) return false;
+  if (!scene.only_translates() || scene.contact != ContactRule::kAllow || !scene.start || !scene.goal) return false;
   if (!scene.robot.is_bounded() || !scene.robot.is_regular()) return false;
   bool any = false;
   for (const Polyhedron& obstacle : scene.obstacles) {

@@ -21,7 +21,7 @@ constexpr std::size_t kMeshFacets = 200;
 bool is_bounded_solid(const Polyhedron& set) { return set.is_bounded() && set.is_regular(); }
 
 bool is_of_solids(const Scene& scene) {
-  return !scene.rotation && scene.contact == ContactRule::kAllow && scene.start && scene.goal &&
+  return scene.only_translates() && scene.contact == ContactRule::kAllow && scene.start && scene.goal &&
          is_bounded_solid(scene.robot) && std::all_of(scene.obstacles.begin(), scene.obstacles.end(), is_bounded_solid);
 }
 

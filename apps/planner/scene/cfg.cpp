@@ -189,10 +189,11 @@ Scene read_cfg(const std::string& path, const MeshOptions& meshes) {
   scene.obstacle_names.push_back(keys.text("world"));
   scene.start = keys.point("start");
   scene.goal = keys.point("goal");
-  const char* motions = scene.turns_freely ? ": start and goal are turned about different axes, so no path is planned"
-                        : scene.rotation   ? ": paths are searched for a robot that translates and turns about one axis"
+  if (!scene.turns_freely) {  // else whoever asks for a path is refused, and told why
+    const char* motions = scene.rotation ? ": paths are searched for a robot that translates and turns about one axis"
                                          : ": paths are searched for a robot that translates and keeps its orientation";
-  scene.messages.push_back(path + motions + "; OMPL.app's robots turn freely");
+    scene.messages.push_back(path + motions + "; OMPL.app's robots turn freely");
+  }
   if (keys.has_any("volume.")) {
     scene.box = {keys.point("volume.min"), keys.point("volume.max")};
     for (std::size_t i = 0; i < 3; ++i) {

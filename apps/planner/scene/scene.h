@@ -47,6 +47,9 @@ struct Scene {
   bool turns_freely = false;
   ContactRule contact = ContactRule::kAllow;
   Messages messages;  ///< what was done to the input
+
+  /// Whether the robot keeps its orientation from start to goal.
+  [[nodiscard]] bool only_translates() const { return !rotation && !turns_freely; }
 };
 
 /// True if a position of the reference point is in the box, if there is one.

@@ -99,7 +99,7 @@ void check_document(const std::string& file, const std::string& text) {
 
 class UrdfReader {
  public:
-  UrdfReader(std::string file, MeshOptions meshes) : file_(std::move(file)), meshes_(std::move(meshes)) {}
+  UrdfReader(std::string file, MeshOptions meshes) : file_(std::move(file)), meshes_(meshes) {}
 
   UrdfRobot read() {
     const std::string text = read_file(file_);

@@ -4,7 +4,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 source scripts/setup.sh
 preset=${NEF_PRESET:-test}
-install_missing "${nef_packages[@]}" "${nef_test_packages[@]}"
+install_missing "${nef_packages[@]}" "${nef_test_packages[@]}" "${nef_docs_packages[@]}"
 install_missing "${nef_optional_packages[@]}" || echo "not installed: ${nef_optional_packages[*]}"
 [ "$preset" = test ] || install_missing "${nef_oracle_packages[@]}"
 # With ccache, a clone elsewhere finds what this one has compiled.

@@ -77,7 +77,7 @@ TEST_CASE("The sign of an approximation tells zero from not known", "[approximat
   CHECK_FALSE((Approximation{1, 0} / Approximation{0.5, 0.5}).sign());
 }
 
-TEST_CASE("The ladder asks the exact question only where doubles do not tell, and counts", "[approximation]") {
+TEST_CASE("The ladder asks the exact question only where doubles do not tell, and counts", "[approximation][fast]") {
   nef::PredicateCounts counts;
   const nef::Monitor monitor = nef::Monitor().counting(counts);
   int asked = 0;

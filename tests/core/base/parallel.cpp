@@ -39,7 +39,7 @@ TEST_CASE("parallel_for calls every index once and books all predicate counts on
   }
 }
 
-TEST_CASE("An operation counts the same predicates on any number of threads", "[parallel]") {
+TEST_CASE("An operation counts the same predicates on any number of threads", "[parallel][fast]") {
   std::vector<Polyhedron> boxes;
   for (int i = 0; i < 30; ++i) boxes.push_back(make_box({i % 7, i % 5, i / 7}, {i % 7 + 2, i % 5 + 1, i / 7 + 2}));
   const auto counted = [&boxes](unsigned threads) {

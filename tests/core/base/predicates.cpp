@@ -56,7 +56,7 @@ TEST_CASE("a plane is found again however it came into the table") {
   CHECK(copies.size() == others.size());
 }
 
-TEST_CASE("side of plane: far by the filter, on it exactly, beside it exactly") {
+TEST_CASE("side of plane: far by the filter, on it exactly, beside it exactly", "[fast]") {
   PlaneTable planes;
   PointTable points;
   const PlaneId plane = planes.intern(1, 1, 1, -1);
@@ -247,7 +247,7 @@ TEST_CASE("infimaximal points and planes: R is greater than every number") {
   CHECK(side_of_plane(planes, x, points, *at_wall, {}) == 1);
 }
 
-TEST_CASE("directions: equality by identity, by filter, exactly") {
+TEST_CASE("directions: equality by identity, by filter, exactly", "[fast]") {
   PlaneTable planes;
   const PlaneId p = planes.intern(1, 2, 3, 0);
   const PlaneId q = planes.intern(3, -1, 2, 0);

@@ -105,10 +105,11 @@ def main() -> int:
             return False
 
     broken: list[str] = []
+    complete = True
     if arguments.seconds is None:
         largest_first = sorted(chosen, key=lambda unit: -len(chosen[unit]))
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-            complete = all(list(pool.map(check, largest_first)))
+            list(pool.map(check, largest_first))
     else:
         complete = ci_selection.look_at(chosen, concerned(chosen, ci_selection.changed()), arguments.seconds, check)
     print(f"clang-tidy: {len(chosen)} units, {len(places)} findings")

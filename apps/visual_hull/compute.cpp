@@ -454,8 +454,7 @@ FoundHull hull_in_room(const Run& run, const Place& place, const Room& room, Vie
   if (run.options.way == Way::kDirect) {
     throw nef::InputError(
         "--way direct does not work for these views (fewer than three, a camera in the box, background, a box that "
-        "cuts the "
-        "hull, or too many coincidences that doubles do not decide); use --way cones");
+        "cuts the hull, or too many coincidences that doubles do not decide); use --way cones");
   }
   return hull_of_cones(run, place, room, views, phases, monitor);
 }

@@ -5,8 +5,9 @@
 //   nef::visual_hull::Scene scene = nef::visual_hull::read_scene("scene.json");
 //   nef::visual_hull::Options options;
 //   options.silhouette.simplify.tolerance = 1;
-//   nef::visual_hull::Result result = nef::visual_hull::compute(scene, nef::visual_hull::scene_folder("scene.json"),
-//   options); nef::write_polyhedron(result.hull, "hull.off");
+//   const std::filesystem::path folder = nef::visual_hull::scene_folder("scene.json");
+//   nef::visual_hull::Result result = nef::visual_hull::compute(scene, folder, options);
+//   nef::write_polyhedron(result.hull, "hull.off");
 #pragma once
 
 #include <array>

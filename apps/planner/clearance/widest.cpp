@@ -30,9 +30,8 @@ Polyhedron grown(const Polyhedron& robot, Growth growth, const Rational& size, c
   }
   if (!robot.is_regular() || !sees_all_from_origin(robot)) {
     throw InputError(
-        "--widest: all of the robot must be visible from its reference point, or a smaller robot might not pass where "
-        "a "
-        "larger one does; move 'reference', or use --widest-box");
+        "--widest: all of the robot must be visible from its reference point, or a smaller robot might not pass "
+        "where a larger one does; move 'reference', or use --widest-box");
   }
   return transform(robot, AffineMap::scale({size, size, size}), monitor);
 }

@@ -5,7 +5,6 @@
 
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/free_space/free_space.h"
-#include "apps/planner/turning/turning_search.h"
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
 #include "nef/base/timing/time_limit.h"

@@ -7,14 +7,15 @@
 #include <optional>
 
 #include "apps/planner/clearance/widest.h"
+#include "apps/planner/turning/turning_search.h"
 
 namespace nef::planner {
 
 /// How a search for the widest robot is limited.
 struct WidestLimits {
-  Rational precision{1, 1000};    ///< relative width of the interval
-  std::size_t max_cells = 2000;   ///< for a robot that turns: cells of angles per size
-  std::optional<double> seconds;  ///< of the whole search; sizes after that are undecided
+  Rational precision{1, 1000};                        ///< relative width of the interval
+  std::size_t max_cells = TurningLimits().max_cells;  ///< for a robot that turns: cells of angles per size
+  std::optional<double> seconds;                      ///< of the whole search; sizes after that are undecided
 };
 
 /// The interval in which the size of the widest robot lies, by bisection with an exact answer at each size. The scene's

@@ -11,6 +11,7 @@
 #include "apps/planner/clearance/timing.h"
 #include "apps/planner/path/path.h"
 #include "apps/planner/scene/scene.h"
+#include "apps/planner/turning/turning_search.h"
 #include "apps/program/session.h"
 
 namespace nef::planner {
@@ -46,7 +47,7 @@ struct Arguments {
   std::vector<std::string> planners{"RRTConnect", "PRMstar", "BITstar"};
   PathOptions path;
   std::optional<double> time;  ///< seconds
-  std::size_t max_cells = 2000;
+  std::size_t max_cells = TurningLimits().max_cells;
   unsigned runs = 1;
   bool tight = false;
   bool se3 = false;

@@ -77,12 +77,7 @@ void print(const CertifiedPath& path) {
   std::cout << '\n';
 }
 
-AffineMap map_of(const RigidPose& pose) {
-  AffineMap map = AffineMap::identity();
-  map.linear = rotation_between(pose.quaternion, pose.quaternion);
-  map.translation = pose.position;
-  return map;
-}
+AffineMap map_of(const RigidPose& pose) { return {rotation_between(pose.quaternion, pose.quaternion), pose.position}; }
 
 Eigen::Quaterniond unit_quaternion(const RigidPose& pose) {
   const Quaternion& q = pose.quaternion;

@@ -196,23 +196,15 @@ class UrdfReader {
     const Quaternion q{exact_rational(turn[0]), exact_rational(turn[1]), exact_rational(turn[2]),
                        exact_rational(turn[3])};
     const Vector3d shift = vector_of(origin.position, where);
-    AffineMap map = AffineMap::identity();
-    map.linear = rotation_between(q, q);
-    for (std::size_t i = 0; i < 3; ++i) map.translation[i] = exact_rational(shift[static_cast<Eigen::Index>(i)]);
-    return map;
+    return {rotation_between(q, q), {exact_rational(shift[0]), exact_rational(shift[1]), exact_rational(shift[2])}};
   }
 
   Polyhedron geometry_of(const urdf::Geometry& geometry, const std::string& where) {
     if (geometry.type == urdf::Geometry::BOX) {
       const Vector3d size = vector_of(dynamic_cast<const urdf::Box&>(geometry).dim, where);
       if (!(size.minCoeff() > 0)) fail(where + ": the sizes of a box must be positive");
-      Rational3 half;
-      Rational3 low;
-      for (std::size_t i = 0; i < 3; ++i) {
-        half[i] = exact_rational(size[static_cast<Eigen::Index>(i)]) / 2;
-        low[i] = -half[i];
-      }
-      return make_box(low, half);
+      const Rational3 half{exact_rational(size[0]) / 2, exact_rational(size[1]) / 2, exact_rational(size[2]) / 2};
+      return make_box({-half[0], -half[1], -half[2]}, half);
     }
     if (geometry.type != urdf::Geometry::MESH) {
       fail(where + " is a sphere or a cylinder: give it a box, or a mesh that encloses it");
@@ -220,8 +212,8 @@ class UrdfReader {
     const auto& mesh = dynamic_cast<const urdf::Mesh&>(geometry);
     const Vector3d scale = vector_of(mesh.scale, where);
     if ((scale.array() == 0).any()) fail(where + ": a scale is zero");
-    AffineMap map = AffineMap::identity();
-    for (std::size_t i = 0; i < 3; ++i) map.linear[i][i] = exact_rational(scale[static_cast<Eigen::Index>(i)]);
+    const AffineMap map =
+        AffineMap::scale({exact_rational(scale[0]), exact_rational(scale[1]), exact_rational(scale[2])});
     const Polyhedron set = read_shape_file(place_of(mesh.filename, where), meshes_, &robot_.messages);
     if (set.is_empty() || !set.is_bounded()) fail(where + " is empty or unbounded");
     return transform(closure(set, meshes_.monitor), map, meshes_.monitor);

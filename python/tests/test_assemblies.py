@@ -86,3 +86,18 @@ def test_the_widest_robot(needs):
         scene.widest((1, 1, 1), (6, 6, 6), max_cells=7)
     with pytest.raises(nef.InputError, match="precision"):
         scene.widest((1, 1, 1), (6, 6, 6), precision=0)
+
+
+def test_proofs_of_parts_that_cannot_move(needs):
+    planner = needs("planner")
+    shell = nef.box((0, 0, 0), (3, 3, 3)) - nef.box((1, 1, 1), (2, 2, 2)).interior()
+    core = nef.box((1, 1, 1), (2, 2, 2))
+    stuck = {"shell": shell, "core": core}
+    text = planner.prove_inseparable(stuck)
+    assert planner.complaint_about_inseparable(stuck, text) is None
+    assert planner.complaint_about_inseparable({"shell": shell, "core": nef.box((1, 1, 1), ("3/2", 2, 2))}, text)
+    assert planner.complaint_about_inseparable({"shell": shell, "heart": core}, text)
+    with pytest.raises(nef.InputError, match="can begin to move"):
+        planner.prove_inseparable({"shell": shell, "core": nef.box((1, 1, 1), ("3/2", 2, 2))})
+    with pytest.raises(nef.InputError):
+        planner.complaint_about_inseparable(stuck, "{}")

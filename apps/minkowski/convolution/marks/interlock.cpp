@@ -36,10 +36,11 @@ struct Arc {
   }
 };
 
-// An arc in doubles, and on which side of its circle a certain direction is.
+// A short arc in doubles, and on which side of its circle a certain direction is.
 struct NearArc {
   Approximation3 normal, from, to;
-  int side = 0;  // 0 if that is not sure
+  Approximation3 first, last;  // normal x from and to x normal: on the arc, directions of the circle are above both
+  int side = 0;                // 0 if that is not sure
 };
 
 // A vertex around which neither the solid nor the rest of space is convex, and some directions into the solid or along
@@ -81,6 +82,17 @@ bool is_saddle(const Complex& c, const SphereMapView& map, const Monitor& monito
   return convex && reflex;
 }
 
+Approximation3 near(const Direction& d) {
+  return {Approximation{d.approximate[0], d.error}, Approximation{d.approximate[1], d.error},
+          Approximation{d.approximate[2], d.error}};
+}
+
+// True if doubles tell that a direction is below a plane.
+bool has_surely_below(const std::vector<Approximation3>& directions, const Approximation3& normal) {
+  return std::any_of(directions.begin(), directions.end(),
+                     [&](const Approximation3& d) { return dot(normal, d).sign().value_or(0) < 0; });
+}
+
 // The hull of the edges, if the solid is in it: nothing else can be, if all arcs are short and what is opposite is
 // free.
 void find_hull(const Complex& c, const SphereMapView& map, Saddle& saddle, const Monitor& monitor) {
@@ -95,10 +107,12 @@ void find_hull(const Complex& c, const SphereMapView& map, Saddle& saddle, const
     const Direction to = direction_of(c.planes, map.svertices[map.target(e)]);
     if (orientation_on_circle(c.planes, map.shalfedges[e].plane, from, to, monitor) <= 0) return;
   }
+  std::vector<Approximation3> near_edges;
+  for (const Direction& d : edges) near_edges.push_back(near(d));
   std::vector<Direction> normals;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     for (std::size_t j = 0; j < edges.size(); ++j) {
-      if (i == j) continue;
+      if (i == j || (kFastPaths && has_surely_below(near_edges, cross(near_edges[i], near_edges[j])))) continue;
       const Direction normal = Direction::cross(edges[i], edges[j]);
       if (normal.is_zero()) continue;
       const bool bounds = std::all_of(edges.begin(), edges.end(),
@@ -113,11 +127,6 @@ void find_hull(const Complex& c, const SphereMapView& map, Saddle& saddle, const
   saddle.turned_hull = std::move(normals);
 }
 
-Approximation3 near(const Direction& d) {
-  return {Approximation{d.approximate[0], d.error}, Approximation{d.approximate[1], d.error},
-          Approximation{d.approximate[2], d.error}};
-}
-
 // What surely_in asks; no arcs if one is not short.
 void find_near_arcs(Saddle& saddle) {
   saddle.near_into = near(saddle.into.front());
@@ -128,7 +137,9 @@ void find_near_arcs(Saddle& saddle) {
     }
     const Approximation3 normal = near(arc.normal);
     const int side = dot(normal, saddle.near_into).sign().value_or(0);
-    saddle.near_arcs.push_back({normal, near(arc.from), near(arc.to), side});
+    const Approximation3 from = near(arc.from);
+    const Approximation3 to = near(arc.to);
+    saddle.near_arcs.push_back({normal, from, to, cross(normal, from), cross(to, normal), side});
   }
 }
 
@@ -205,10 +216,37 @@ bool fits(const Complex& c, const Saddle& saddle, const Saddle& other, const Mon
   return at.kind == SphereLocation::Kind::kSFace && map.sfaces[at.index].mark == 0;
 }
 
+// Where the two directions of a line in the circle of a short arc are: 1 if the first one is on the arc, -1 if the
+// second one is, 0 if neither; nothing if doubles do not tell.
+std::optional<int> surely_on(const NearArc& arc, const Approximation3& line) {
+  const std::optional<int> first = dot(arc.first, line).sign();
+  const std::optional<int> last = dot(arc.last, line).sign();
+  if (first == 0 || last == 0 || (first && last && *first != *last)) return 0;
+  return first && last ? first : std::nullopt;
+}
+
+// Whether an arc crosses one of the other saddle, turned about the vertex; nothing if doubles do not tell.
+std::optional<bool> surely_cross(const NearArc& a, const NearArc& b) {
+  const Approximation3 line = cross(a.normal, b.normal);
+  const std::optional<int> on_a = surely_on(a, line);
+  if (on_a == 0) return false;
+  const std::optional<int> on_b = surely_on(b, line);
+  if (on_b == 0) return false;
+  return on_a && on_b ? std::optional(*on_a == -*on_b) : std::nullopt;
+}
+
 // True if an arc of one crosses one of the other, turned about the vertex: where both are, there is the inside of both.
 bool cross(const Saddle& s, const Saddle& t, const Monitor& monitor) {
-  for (const Arc& a : s.arcs) {
-    for (const Arc& b : t.arcs) {
+  const bool ask_doubles = kFastPaths && !s.near_arcs.empty() && !t.near_arcs.empty();
+  for (std::size_t i = 0; i < s.arcs.size(); ++i) {
+    for (std::size_t j = 0; j < t.arcs.size(); ++j) {
+      if (ask_doubles) {
+        const std::optional<bool> known = surely_cross(s.near_arcs[i], t.near_arcs[j]);
+        if (known == true) return true;
+        if (known == false) continue;
+      }
+      const Arc& a = s.arcs[i];
+      const Arc& b = t.arcs[j];
       const Direction d = Direction::cross(a.normal, b.normal);
       if (d.is_zero()) continue;
       const Direction e = d.negated();

@@ -36,11 +36,10 @@ struct Arc {
   }
 };
 
-// A short arc in doubles, and on which side of its circle a certain direction is.
+// An arc in doubles, and on which side of its circle a certain direction is.
 struct NearArc {
   Approximation3 normal, from, to;
-  Approximation3 first, last;  // normal x from and to x normal: on the arc, directions of the circle are above both
-  int side = 0;                // 0 if that is not sure
+  int side = 0;  // 0 if that is not sure
 };
 
 // A vertex around which neither the solid nor the rest of space is convex, and some directions into the solid or along
@@ -59,60 +58,55 @@ struct Saddle {
   Direction turned_middle;
 };
 
+using Directions = std::vector<Direction>;
+
+// Of the svertices of a map, in their order.
+Directions directions_of(const Complex& c, const SphereMapView& map) {
+  Directions result;
+  for (const SVertex& s : map.svertices) result.push_back(direction_of(c.planes, s));
+  return result;
+}
+
 // Around an edge with one wedge: 1 if that is convex, -1 if it is reflex, 0 if it is flat.
-int bend(const Complex& c, const SphereMapView& map, std::uint32_t svertex, const Monitor& monitor) {
-  const Direction line = direction_of(c.planes, map.svertices[svertex]);
+int bend(const Complex& c, const SphereMapView& map, std::uint32_t svertex, const Direction& line,
+         const Monitor& monitor) {
   std::uint32_t e = map.svertices[svertex].out;
   while (map.sfaces[map.shalfedges[e].sface].mark != 0) e = map.next_around(e);
   return -orientation_around(c.planes, line, map.shalfedges[e].plane, map.shalfedges[map.next_around(e)].plane,
                              monitor);
 }
 
-bool is_saddle(const Complex& c, const SphereMapView& map, const Monitor& monitor) {
+bool is_saddle(const Complex& c, const SphereMapView& map, const Directions& edges, const Monitor& monitor) {
   const auto solid = std::count_if(map.sfaces.begin(), map.sfaces.end(), [](const SFace& f) { return f.mark != 0; });
   const auto free = static_cast<std::ptrdiff_t>(map.sfaces.size()) - solid;
   if (solid > 1 || free > 1) return true;
   bool convex = false;
   bool reflex = false;
   for (std::uint32_t s = 0; s < map.svertices.size(); ++s) {
-    const int b = bend(c, map, s, monitor);
+    const int b = bend(c, map, s, edges[s], monitor);
     convex = convex || b > 0;
     reflex = reflex || b < 0;
   }
   return convex && reflex;
 }
 
-Approximation3 near(const Direction& d) {
-  return {Approximation{d.approximate[0], d.error}, Approximation{d.approximate[1], d.error},
-          Approximation{d.approximate[2], d.error}};
-}
-
-// True if doubles tell that a direction is below a plane.
-bool has_surely_below(const std::vector<Approximation3>& directions, const Approximation3& normal) {
-  return std::any_of(directions.begin(), directions.end(),
-                     [&](const Approximation3& d) { return dot(normal, d).sign().value_or(0) < 0; });
-}
-
 // The hull of the edges, if the solid is in it: nothing else can be, if all arcs are short and what is opposite is
 // free.
-void find_hull(const Complex& c, const SphereMapView& map, Saddle& saddle, const Monitor& monitor) {
-  std::vector<Direction> edges;
+void find_hull(const Complex& c, const SphereMapView& map, const Directions& edges, Saddle& saddle,
+               const Monitor& monitor) {
   Integer3 sum;
-  for (const SVertex& s : map.svertices) {
-    edges.push_back(direction_of(c.planes, s));
-    for (std::size_t i = 0; i < 3; ++i) sum[i] += edges.back().integers()[i];
+  for (const Direction& edge : edges) {
+    for (std::size_t i = 0; i < 3; ++i) sum[i] += edge.integers()[i];
   }
   for (std::uint32_t e = 0; e < map.shalfedges.size(); e += 2) {
-    const Direction from = direction_of(c.planes, map.svertices[map.shalfedges[e].source]);
-    const Direction to = direction_of(c.planes, map.svertices[map.target(e)]);
+    const Direction& from = edges[map.shalfedges[e].source];
+    const Direction& to = edges[map.target(e)];
     if (orientation_on_circle(c.planes, map.shalfedges[e].plane, from, to, monitor) <= 0) return;
   }
-  std::vector<Approximation3> near_edges;
-  for (const Direction& d : edges) near_edges.push_back(near(d));
   std::vector<Direction> normals;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     for (std::size_t j = 0; j < edges.size(); ++j) {
-      if (i == j || (kFastPaths && has_surely_below(near_edges, cross(near_edges[i], near_edges[j])))) continue;
+      if (i == j) continue;
       const Direction normal = Direction::cross(edges[i], edges[j]);
       if (normal.is_zero()) continue;
       const bool bounds = std::all_of(edges.begin(), edges.end(),
@@ -127,6 +121,11 @@ void find_hull(const Complex& c, const SphereMapView& map, Saddle& saddle, const
   saddle.turned_hull = std::move(normals);
 }
 
+Approximation3 near(const Direction& d) {
+  return {Approximation{d.approximate[0], d.error}, Approximation{d.approximate[1], d.error},
+          Approximation{d.approximate[2], d.error}};
+}
+
 // What surely_in asks; no arcs if one is not short.
 void find_near_arcs(Saddle& saddle) {
   saddle.near_into = near(saddle.into.front());
@@ -137,9 +136,7 @@ void find_near_arcs(Saddle& saddle) {
     }
     const Approximation3 normal = near(arc.normal);
     const int side = dot(normal, saddle.near_into).sign().value_or(0);
-    const Approximation3 from = near(arc.from);
-    const Approximation3 to = near(arc.to);
-    saddle.near_arcs.push_back({normal, from, to, cross(normal, from), cross(to, normal), side});
+    saddle.near_arcs.push_back({normal, near(arc.from), near(arc.to), side});
   }
 }
 
@@ -147,7 +144,8 @@ std::vector<Saddle> saddles(const Complex& c, const Monitor& monitor) {
   std::vector<Saddle> result;
   for (const VertexId v : c.vertex_ids()) {
     const SphereMapView map = c.sphere_map(v);
-    if (!is_saddle(c, map, monitor)) continue;
+    const Directions edges = directions_of(c, map);
+    if (!is_saddle(c, map, edges, monitor)) continue;
     Saddle saddle;
     saddle.vertex = v;
     const Rational3 at = c.points.rational(point_of(v));
@@ -156,8 +154,8 @@ std::vector<Saddle> saddles(const Complex& c, const Monitor& monitor) {
     for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
       if (map.sfaces[map.shalfedges[e].sface].mark == 0) continue;
       saddle.into.push_back(direction_into(c.planes, map, map.shalfedges[e].sface, e, monitor));
-      const Direction from = direction_of(c.planes, map.svertices[map.shalfedges[e].source]);
-      const Direction to = direction_of(c.planes, map.svertices[map.target(e)]);
+      const Direction& from = edges[map.shalfedges[e].source];
+      const Direction& to = edges[map.target(e)];
       const Direction normal = Direction::normal(c.planes, map.shalfedges[e].plane);
       saddle.into.push_back(from);
       const int turn = orientation_on_circle(c.planes, map.shalfedges[e].plane, from, to, monitor);
@@ -166,7 +164,7 @@ std::vector<Saddle> saddles(const Complex& c, const Monitor& monitor) {
     }
     for (const Direction& d : saddle.into) saddle.back.push_back(d.negated());
     find_near_arcs(saddle);
-    find_hull(c, map, saddle, monitor);
+    find_hull(c, map, edges, saddle, monitor);
     result.push_back(std::move(saddle));
   }
   return result;
@@ -216,37 +214,10 @@ bool fits(const Complex& c, const Saddle& saddle, const Saddle& other, const Mon
   return at.kind == SphereLocation::Kind::kSFace && map.sfaces[at.index].mark == 0;
 }
 
-// Where the two directions of a line in the circle of a short arc are: 1 if the first one is on the arc, -1 if the
-// second one is, 0 if neither; nothing if doubles do not tell.
-std::optional<int> surely_on(const NearArc& arc, const Approximation3& line) {
-  const std::optional<int> first = dot(arc.first, line).sign();
-  const std::optional<int> last = dot(arc.last, line).sign();
-  if (first == 0 || last == 0 || (first && last && *first != *last)) return 0;
-  return first && last ? first : std::nullopt;
-}
-
-// Whether an arc crosses one of the other saddle, turned about the vertex; nothing if doubles do not tell.
-std::optional<bool> surely_cross(const NearArc& a, const NearArc& b) {
-  const Approximation3 line = cross(a.normal, b.normal);
-  const std::optional<int> on_a = surely_on(a, line);
-  if (on_a == 0) return false;
-  const std::optional<int> on_b = surely_on(b, line);
-  if (on_b == 0) return false;
-  return on_a && on_b ? std::optional(*on_a == -*on_b) : std::nullopt;
-}
-
 // True if an arc of one crosses one of the other, turned about the vertex: where both are, there is the inside of both.
 bool cross(const Saddle& s, const Saddle& t, const Monitor& monitor) {
-  const bool ask_doubles = kFastPaths && !s.near_arcs.empty() && !t.near_arcs.empty();
-  for (std::size_t i = 0; i < s.arcs.size(); ++i) {
-    for (std::size_t j = 0; j < t.arcs.size(); ++j) {
-      if (ask_doubles) {
-        const std::optional<bool> known = surely_cross(s.near_arcs[i], t.near_arcs[j]);
-        if (known == true) return true;
-        if (known == false) continue;
-      }
-      const Arc& a = s.arcs[i];
-      const Arc& b = t.arcs[j];
+  for (const Arc& a : s.arcs) {
+    for (const Arc& b : t.arcs) {
       const Direction d = Direction::cross(a.normal, b.normal);
       if (d.is_zero()) continue;
       const Direction e = d.negated();

@@ -410,12 +410,94 @@ def check_inseparable(claim, witness):
     return f"inseparable: no set of {len(parts)} parts can begin to move, in {cones} cones of directions"
 
 
+# That passages are tight: cones of directions in each of which one contact blocks all that does not lead along the passage.
+
+def tight_frame(along):
+    """Three vectors that span space, those of the passage first."""
+    axes = [[int(i == k) for i in range(3)] for k in range(3)]
+    if len(along) == 1 and any(along[0]):
+        first = next(k for k in range(3) if along[0][k])
+        axes[first] = axes[0]
+        return [along[0], *axes[1:]]
+    frame = [*along, cross(*along)] if len(along) == 2 else axes
+    require(len(along) in (0, 2) and all(map(any, frame)), "a passage needs at most two vectors, linearly independent")
+    return frame
+
+
+def is_along(along, direction):
+    """Whether a direction is in the span of the vectors of the passage."""
+    if len(along) == 2:
+        return dot(cross(*along), direction) == 0
+    return len(along) == 1 and not any(cross(along[0], direction))
+
+
+def tight_contact(claim, position, contact):
+    """The normals around the cone of directions that a contact blocks: of two pieces, or at a side of the box."""
+    if isinstance(contact, dict) and "side" in contact:
+        side = index(fields(contact, "side")[0], 6)
+        upper, axis = divmod(side, 3)
+        require(claim.box is not None and position[axis] == claim.box[upper][axis], "the position is not on that side of the box")
+        return [[(-1 if upper else 1) if k == axis else 0 for k in range(3)]]
+    i, j, common = fields(contact, "robot", "obstacle", "common")
+    piece = [[x + at for x, at in zip(vertex, position)] for vertex in claim.robot[index(i, len(claim.robot))]]
+    obstacle = claim.obstacles[index(j, len(claim.obstacles))]
+    ours, theirs = fields(common, "robot", "obstacle")
+    point = weighted_sum(piece, numbers(ours, len(piece)), False)
+    require(point == weighted_sum(obstacle, numbers(theirs, len(obstacle)), False), "two pieces have not the point in common")
+    normals = outer_planes([minus(vertex, point) for vertex in obstacle] + [minus(point, vertex) for vertex in piece])
+    require(normals, "two pieces of a contact overlap, or are flat")
+    return normals
+
+
+def balanced_sum(a, b):
+    """The sum, the shorter one first multiplied by the largest power of two with which it is not the longer one."""
+    lengths = [Fraction(sum(map(abs, v))) for v in (a, b)]
+    ratio = lengths[1] / lengths[0]
+    up, down = (max(0, math.floor(r).bit_length() - 1) for r in (ratio, 1 / ratio))
+    return [x * 2 ** up + y * 2 ** down for x, y in zip(a, b)]
+
+
+def check_tight_cone(along, contacts, cone, corners):
+    if isinstance(cone, dict) and "edge" in cone:
+        edge, halves = fields(cone, "edge", "halves")
+        after = (index(edge, 3) + 1) % 3
+        middle = balanced_sum(corners[edge], corners[after])
+        first, second = items(halves, 2)
+        for half, end in ((first, after), (second, edge)):
+            check_tight_cone(along, contacts, half, [middle if k == end else corner for k, corner in enumerate(corners)])
+        return
+    normals = contacts[index(fields(cone, "contact")[0], len(contacts))]
+    for corner in corners:
+        sides = {sign(dot(normal, corner)) for normal in normals}
+        require(sides <= ({-1, 0} if is_along(along, corner) else {-1}), "a contact does not block all directions of a cone")
+
+
+def check_tight(claim, witness):
+    require(isinstance(claim, dict) and "along" in claim, "the claim does not say along what passages lead")
+    passages = [[numbers(vector, 3) for vector in items(along)] for along in items(claim["along"])]
+    claim = PathClaim({key: value for key, value in claim.items() if key != "along"})
+    require(claim.contact_allowed, "without contact no passage is tight")
+    places = items(fields(witness, "places")[0], len(claim.poses))
+    require(len(passages) == len(claim.poses), "each pose needs the vectors of its passage")
+    for pose, along, place in zip(claim.poses, passages, places):
+        position, quaternion = pose
+        require(quaternion == [1, 0, 0, 0] and claim.in_box(position), "a pose is turned, or outside the box")
+        planes, given, octants = fields(place, "planes", "contacts", "octants")
+        check_part(claim, Motion(pose, pose), Fraction(0), Fraction(1), planes)
+        contacts = [tight_contact(claim, position, contact) for contact in items(given)]
+        frame = tight_frame(along)
+        for octant, cone in enumerate(items(octants, 8)):
+            corners = [[-x for x in vector] if octant >> k & 1 else vector for k, vector in enumerate(frame)]
+            check_tight_cone(along, contacts, cone, corners)
+    return f"tight: {len(places)} passage" + "s" * (len(places) != 1)
+
+
 def of_path(check_witness):
     return lambda claim, witness: check_witness(PathClaim(claim), witness)
 
 
 CHECKS = {"path": of_path(check_free_path), "blocked": of_path(check_blocked_path),
-          "infeasible": of_path(check_infeasible), "inseparable": check_inseparable}
+          "infeasible": of_path(check_infeasible), "inseparable": check_inseparable, "tight": check_tight}
 
 
 def check(text, claim_digest=None):

@@ -227,8 +227,8 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--max-cells", a.max_cells, "For a robot that turns: use at most this many cells of angles");
   app.add_option(
          "--proof", a.proof,
-         "Write a proof (.proof) that the path is free, that it collides, or that there is none; with --assembly, that "
-         "nothing can begin to move")
+         "Write a proof (.proof) that the path is free, that it collides, or that there is none; with --tight, that "
+         "passages are tight; with --assembly, that nothing can begin to move")
       ->type_name("FILE");
   app.add_option(
          "--check-proof", a.check_proof,

@@ -39,7 +39,8 @@ void write_translation_proof(const Arguments& a, const Scene& scene, const FreeS
   if (a.proof.empty()) return;
   std::string text;
   try {
-    text = proof_text(proof_of_answer(scene, free, answer, given));
+    text = proof_text(a.tight && given.empty() ? proof_of_tight_passages(scene, *free)
+                                               : proof_of_answer(scene, free, answer, given));
   } catch (const InputError& error) {
     throw InputError("--proof " + a.proof + ": " + error.what());
   }

@@ -56,4 +56,11 @@ PathProof proof_of_answer(const Scene& scene, const FreeSpace* free, const Answe
   return *proof;
 }
 
+PathProof proof_of_tight_passages(const Scene& scene, const FreeSpace& free, const Monitor& monitor) {
+  if (free.passages().empty()) throw InputError("no passage is tight, so there is nothing to prove");
+  free.build_roadmap(monitor);
+  if (auto proof = make_tight_proof(scene, free, monitor)) return *proof;
+  throw InputError("the contacts in one of the passages do not show by themselves that it is tight");
+}
+
 }  // namespace nef::planner

@@ -21,4 +21,8 @@ std::vector<RigidPose> poses_at(const std::vector<Rational3>& positions);
 PathProof proof_of_answer(const Scene& scene, const FreeSpace* free, const Answer& answer,
                           std::span<const RigidPose> given, const Monitor& monitor = {});
 
+/// The proof that the tight passages of a free space are tight (make_tight_proof). Throws InputError if it has none, or
+/// if there is no such proof.
+PathProof proof_of_tight_passages(const Scene& scene, const FreeSpace& free, const Monitor& monitor = {});
+
 }  // namespace nef::planner

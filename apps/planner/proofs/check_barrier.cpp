@@ -16,32 +16,6 @@
 
 namespace nef::planner {
 
-bool is_flat(std::span<const Rational3> piece) {
-  std::vector<Rational3> sides;
-  for (const Rational3& p : piece) sides.push_back(minus(p, piece.front()));
-  Rational3 normal{};
-  for (const Rational3& first : sides) {
-    for (const Rational3& second : sides) {
-      if (is_zero(normal)) normal = cross(first, second);
-    }
-  }
-  return std::all_of(sides.begin(), sides.end(), [&](const Rational3& side) { return dot(normal, side) == 0; });
-}
-
-std::optional<Rational3> weighted_sum(std::span<const Rational3> points, std::span<const Rational> weights,
-                                      bool positive) {
-  if (weights.size() != points.size()) return std::nullopt;
-  Rational3 sum;
-  Rational all = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (weights[i] < 0 || (positive && weights[i] == 0)) return std::nullopt;
-    all += weights[i];
-    for (std::size_t k = 0; k < 3; ++k) sum[k] += weights[i] * points[i][k];
-  }
-  if (all != 1) return std::nullopt;
-  return sum;
-}
-
 namespace {
 
 using BarrierComplaint = std::optional<std::string>;

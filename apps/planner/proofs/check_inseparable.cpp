@@ -28,27 +28,6 @@ bool contains_all(const Normals& normals, const Corners& vectors) {
   });
 }
 
-// The outward normals of the planes through two of some vectors that have all of them on one side. Nothing if the
-// vectors lie in one plane, or are on no plane's one side.
-Normals outer_planes(const std::vector<Rational3>& vectors) {
-  Normals result;
-  for (std::size_t i = 0; i < vectors.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const Rational3 n = cross(vectors[i], vectors[j]);
-      Rational least = 0;
-      Rational most = 0;
-      for (const Rational3& v : vectors) {
-        const Rational at = dot(n, v);
-        least = std::min(least, at);
-        most = std::max(most, at);
-      }
-      if (least < 0 && most == 0) result.push_back(n);
-      if (least == 0 && most > 0) result.push_back(opposite(n));
-    }
-  }
-  return result;
-}
-
 class InseparableCheck {
  public:
   explicit InseparableCheck(const InseparableProof& proof) : proof_(proof) {}

@@ -3,9 +3,11 @@
 // What the checks of proofs have in common.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "apps/planner/proofs/path_proof.h"
 
@@ -18,6 +20,21 @@ bool is_flat(std::span<const Rational3> piece);
 /// up to 1.
 std::optional<Rational3> weighted_sum(std::span<const Rational3> points, std::span<const Rational> weights,
                                       bool positive);
+
+/// The outward normals of the planes through two of some vectors that have all of them on one side: those around the
+/// cone that the vectors span. Nothing if they lie in one plane, or are on no plane's one side. O(n^3).
+std::vector<Rational3> outer_planes(std::span<const Rational3> vectors);
+
+/// Three vectors that span space, those of a passage first: the axes without it; of one vector, this and the axes other
+/// than the first one in which it is not zero; of two, these and their cross product. Nothing if they are dependent.
+std::optional<std::array<Rational3, 3>> tight_frame(std::span<const Rational3> along);
+
+/// The sum of two vectors, neither zero, the shorter one (by the sum of absolute values) first multiplied by the
+/// largest power of two with which it is not the longer one: a direction near to the middle of theirs.
+Rational3 balanced_sum(const Rational3& a, const Rational3& b);
+
+/// What is wrong with the proof that all positions near pose number `pose` are along its passage; nothing if they are.
+std::optional<std::string> complaint_about_tight(const PathProof& proof, std::size_t pose);
 
 /// What is wrong with the barrier of a proof, which must have one; nothing if no path of translations leads from the
 /// first pose to the last. O(n log n) for n triangles.

@@ -6,7 +6,8 @@
 // 3. Each pair of pieces has its boxes apart, or a plane of the proof between the images and the obstacle's vertices.
 // 4. A collision is a common point of two pieces at both ends of an interval that holds the position. Pairs (position,
 //    common point) of two convex pieces are a convex set, so there is one at the position itself.
-// 5. The pieces of a claim are the scene's sets if their unions are, those of the solid pieces and of the flat ones.
+// 5. What shows that a passage is tight is in check_tight.cpp; that its position is free, as in 3.
+// 6. The pieces of a claim are the scene's sets if their unions are, those of the solid pieces and of the flat ones.
 #include <algorithm>
 #include <functional>
 #include <map>
@@ -81,6 +82,8 @@ class PathCheck {
         return check_free();
       case Status::kBlocked:
         return check_collision();
+      case Status::kTight:
+        return check_tight();
       default:
         return complaint_about_barrier(proof_);
     }
@@ -106,6 +109,10 @@ class PathCheck {
     }
     if (proof_.barrier.has_value() != (claim_.status == Status::kInfeasible)) {
       return "the proof that there is no path needs a barrier, and other proofs have none";
+    }
+    const std::size_t places = claim_.status == Status::kTight ? claim_.path.size() : 0;
+    if (proof_.tight.size() != places || claim_.along.size() != places) {
+      return "the proof that passages are tight needs its vectors and cones for each pose, and other proofs have none";
     }
     return std::nullopt;
   }
@@ -174,6 +181,19 @@ class PathCheck {
         return "nothing separates piece " + std::to_string(i) + " of the robot from piece " + std::to_string(j) +
                " of the obstacles";
       }
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] Complaint check_tight() const {
+    if (claim_.contact != ContactRule::kAllow) return "without contact no passage is tight";
+    for (std::size_t i = 0; i < claim_.path.size(); ++i) {
+      const RigidPose& pose = claim_.path[i];
+      if (pose.quaternion != Quaternion{1, 0, 0, 0}) return "a pose in a tight passage must not be turned";
+      if (!in_box(pose.position)) return "a pose is outside the box";
+      const std::string where = "pose " + std::to_string(i) + ": ";
+      if (Complaint complaint = check_part({pose, pose}, 0, {1, proof_.tight[i].planes})) return where + *complaint;
+      if (Complaint complaint = complaint_about_tight(proof_, i)) return where + *complaint;
     }
     return std::nullopt;
   }

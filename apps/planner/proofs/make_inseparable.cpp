@@ -1,44 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// For each pair of convex pieces of different parts whose boxes touch, the linear program of common_point.h finds a
-// point in common, and the cone of blocked directions follows. What is blocked in a direction is blocked in directions
-// near to it, so if everything is tied together in each direction, it is in all directions of small enough cones: cones
-// are halved along their longest side until it is.
+// Each pair of convex pieces of different parts that touch blocks a cone of directions. What is blocked in a direction
+// is blocked in directions near to it, so if everything is tied together in each direction, it is in all directions of
+// small enough cones: cones are halved along their longest side until it is.
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 #include <utility>
 
 #include "apps/planner/assembly/closed_sets.h"
-#include "apps/planner/assembly/contact_cones.h"
-#include "apps/planner/proofs/common_point.h"
 #include "apps/planner/proofs/inseparable_proof.h"
+#include "apps/planner/proofs/piece_contact.h"
 #include "apps/planner/rigid/rigid_body.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef::planner {
 namespace {
 
-using PieceContact = InseparableProof::Contact;
 using DirectionCone = InseparableProof::Cone;
-using Corners = std::array<Rational3, 3>;
-
-constexpr unsigned kMostHalvings = 30;
-constexpr std::size_t kMostCones = 50000;
-
-bool boxes_touch(const std::vector<Rational3>& p, const std::vector<Rational3>& q) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto less = [k](const Rational3& a, const Rational3& b) { return a[k] < b[k]; };
-    const auto [p_low, p_high] = std::minmax_element(p.begin(), p.end(), less);
-    const auto [q_low, q_high] = std::minmax_element(q.begin(), q.end(), less);
-    if ((*p_high)[k] < (*q_low)[k] || (*q_high)[k] < (*p_low)[k]) return false;
-  }
-  return true;
-}
-
-// How much two vectors turn away from each other: minus the cosine.
-double spread(const Rational3& a, const Rational3& b) { return -direction_of(a).dot(direction_of(b)); }
+using Corners = ConeCorners;
 
 class TieSearch {
  public:
@@ -72,19 +52,11 @@ class TieSearch {
     for (std::uint32_t i = 0; i < pieces_a.size(); ++i) {
       for (std::uint32_t j = 0; j < pieces_b.size(); ++j) {
         monitor_.check_interruption();
-        if (!boxes_touch(pieces_a[i], pieces_b[j])) continue;
-        HullWitness found = witness_of_hulls(pieces_a[i], pieces_b[j], false);
-        if (!found.common) continue;
-        Rational3 at;
-        for (std::size_t v = 0; v < pieces_a[i].size(); ++v) {
-          for (std::size_t k = 0; k < 3; ++k) at[k] += found.common->robot[v] * pieces_a[i][v][k];
-        }
-        std::vector<Rational3> rays;
-        for (const Rational3& y : pieces_b[j]) rays.push_back(minus(y, at));
-        for (const Rational3& x : pieces_a[i]) rays.push_back(minus(at, x));
-        OpenCone blocked = inside_of_hull(rays);
-        if (blocked.empty()) continue;
-        contacts_.push_back({{{a, i}, {b, j}, std::move(*found.common)}, blocked, opposite_cone(blocked)});
+        std::optional<BlockingContact> found = contact_of_pieces(pieces_a[i], pieces_b[j]);
+        if (!found) continue;
+        OpenCone opposite = opposite_cone(found->blocked);
+        contacts_.push_back(
+            {{{a, i}, {b, j}, std::move(found->common)}, std::move(found->blocked), std::move(opposite)});
       }
     }
   }
@@ -94,17 +66,12 @@ class TieSearch {
     if (++cones_ > kMostCones) return std::nullopt;
     if (std::optional<DirectionCone> leaf = tied(corners)) return leaf;
     if (depth == kMostHalvings) return std::nullopt;
-    std::size_t edge = 0;
-    for (std::size_t k = 1; k < 3; ++k) {
-      if (spread(corners[k], corners[(k + 1) % 3]) > spread(corners[edge], corners[(edge + 1) % 3])) edge = k;
-    }
+    const std::size_t edge = widest_edge(corners);
     const std::size_t next = (edge + 1) % 3;
     DirectionCone result;
     result.edge = static_cast<std::uint32_t>(edge);
     for (const std::size_t end : {next, edge}) {
-      Corners half = corners;
-      half[end] = plus(corners[edge], corners[next]);
-      std::optional<DirectionCone> cone = cover(half, depth + 1);
+      std::optional<DirectionCone> cone = cover(half_cone(corners, edge, end), depth + 1);
       if (!cone) return std::nullopt;
       result.halves.push_back(std::move(*cone));
     }
@@ -156,7 +123,7 @@ class TieSearch {
   }
 
   struct Known {
-    PieceContact contact;
+    InseparableProof::Contact contact;
     OpenCone first_blocked;
     OpenCone second_blocked;
     std::optional<std::uint32_t> number = std::nullopt;

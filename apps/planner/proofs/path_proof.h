@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Proofs that a path is free, or that it collides, as data that anybody can check (docs/proofs.md).
+// Proofs that a path is free, that it collides, that there is none, or that passages are tight, as data that anybody
+// can check (docs/proofs.md).
 #pragma once
 
 #include <array>
@@ -17,6 +18,8 @@
 #include "nef/base/monitor.h"
 
 namespace nef::planner {
+
+class FreeSpace;
 
 /// Convex pieces by their vertices. A piece whose vertices lie in one plane is flat: part of a surface, or thinner.
 using ProofPieces = std::vector<std::vector<Rational3>>;
@@ -37,9 +40,11 @@ struct PathProof {
   /// box collide, too.
   struct Claim {
     enum class Status : std::uint8_t {
-      kFree,       ///< no pose of the path collides
-      kBlocked,    ///< one pose of the path collides
-      kInfeasible  ///< the path is two poses, not turned, and every path of translations between them collides
+      kFree,        ///< no pose of the path collides
+      kBlocked,     ///< one pose of the path collides
+      kInfeasible,  ///< the path is two poses, not turned, and every path of translations between them collides
+      kTight        ///< the robot, not turned, collides at no pose of the path; all positions near to one at which it
+                    ///< collides neither are in the plane, on the line or at the point through it along `along`
     };
     Status status = Status::kFree;
     ContactRule contact = ContactRule::kAllow;
@@ -47,6 +52,8 @@ struct PathProof {
     ProofPieces robot;
     ProofPieces obstacles;
     std::vector<RigidPose> path;  ///< a path of one pose stays there
+    /// kTight: for each pose two vectors, one or none, linearly independent.
+    std::vector<std::vector<Rational3>> along;
   };
   /// A plane with this normal lies between what a piece of the robot sweeps, on the lower side, and an obstacle's.
   struct Plane {
@@ -89,11 +96,36 @@ struct PathProof {
     std::vector<Triangle> triangles;
   };
 
+  /// Why a position is tight. Directions are cut into cones; in all directions of a cone but those along the passage
+  /// the robot collides at once, by one contact.
+  struct Tight {
+    /// Two pieces that touch (piece_contact.h), the robot's at the position, or a side of the box that has the
+    /// position: the lower ones of x, y, z are 0 to 2, the upper ones 3 to 5.
+    struct Contact {
+      std::uint32_t robot = 0;
+      std::uint32_t obstacle = 0;
+      CommonPoint common;
+      std::optional<std::uint32_t> side;
+    };
+    /// The directions that three vectors span: two halves, cut by the balanced_sum of the ends of `edge`, or what
+    /// blocks them.
+    struct Cone {
+      std::optional<std::uint32_t> edge;
+      std::vector<Cone> halves;  ///< none or two: the first one has the sum in place of the later end
+      std::uint32_t contact = 0;
+    };
+    std::vector<Plane> planes;  ///< the robot collides with nothing at the position, as in a Part
+    std::vector<Contact> contacts;
+    /// Octant i is spanned by the vectors of tight_frame, the k-th negated if bit k of i is set.
+    std::array<Cone, 8> octants;
+  };
+
   Claim claim;
   std::vector<std::vector<Part>> motions;  ///< of a free path: each cut into parts
   std::optional<Collision> collision;      ///< of a path that collides
   std::optional<std::size_t> outside;      ///< of a path that collides: the number of a pose outside the box
   std::optional<Barrier> barrier;          ///< if there is no path
+  std::vector<Tight> tight;                ///< of each pose, if these are tight
 };
 
 /// The proof of what is known of a path; nothing if that is kUndecided. `known` must come from `checker` with the
@@ -108,6 +140,12 @@ std::optional<PathProof> make_path_proof(const MotionChecker& checker, std::span
 /// the sum, and for every triangle a search through the pairs of pieces.
 std::optional<PathProof> make_barrier_proof(const Scene& scene, const Polyhedron& free, const Rational3& start,
                                             const Rational3& goal, const Monitor& monitor = {});
+
+/// The proof that the tight passages of a free space are tight, each at a position inside of its largest cell; nothing
+/// if there are none, or if the contacts of one do not show it: those of an edge along the passage, say, that changes
+/// there. Needs the roadmap for the positions. Costs a linear program for each pair of pieces that touch, and the
+/// cones.
+std::optional<PathProof> make_tight_proof(const Scene& scene, const FreeSpace& free, const Monitor& monitor = {});
 
 /// What is wrong with a proof; nothing if its claim holds. Everything is rational, and nothing of the search is used:
 /// no doubles, no tree, no hulls. O(parts pieces of the robot times pieces of obstacles).

@@ -18,38 +18,46 @@ using nlohmann::json;
 
 using Status = PathProof::Claim::Status;
 
-constexpr std::array kStatusNames{"path", "blocked", "infeasible"};  // in the order of Status
+constexpr std::array kStatusNames{"path", "blocked", "infeasible", "tight"};  // in the order of Status
 
 json claim_json(const PathProof::Claim& claim) {
   json path = json::array();
   for (const RigidPose& pose : claim.path) {
     path.push_back({{"position", exact_json(pose.position)}, {"quaternion", numbers_json(pose.quaternion)}});
   }
-  return {{"status", status_word(claim.status)},
-          {"contact", claim.contact == ContactRule::kAllow ? "allow" : "forbid"},
-          {"box", claim.box ? json::array({exact_json((*claim.box)[0]), exact_json((*claim.box)[1])}) : json()},
-          {"robot", pieces_json(claim.robot)},
-          {"obstacles", pieces_json(claim.obstacles)},
-          {"path", std::move(path)}};
+  json result{{"status", status_word(claim.status)},
+              {"contact", claim.contact == ContactRule::kAllow ? "allow" : "forbid"},
+              {"box", claim.box ? json::array({exact_json((*claim.box)[0]), exact_json((*claim.box)[1])}) : json()},
+              {"robot", pieces_json(claim.robot)},
+              {"obstacles", pieces_json(claim.obstacles)},
+              {"path", std::move(path)}};
+  if (claim.status == Status::kTight) result["along"] = pieces_json(claim.along);
+  return result;
+}
+
+json planes_json(const std::vector<PathProof::Plane>& planes) {
+  json result = json::array();
+  for (const PathProof::Plane& plane : planes) {
+    result.push_back({{"robot", plane.robot}, {"obstacle", plane.obstacle}, {"normal", exact_json(plane.normal)}});
+  }
+  return result;
 }
 
 json motion_json(const std::vector<PathProof::Part>& parts) {
   json result = json::array();
   for (const PathProof::Part& part : parts) {
-    json planes = json::array();
-    for (const PathProof::Plane& plane : part.planes) {
-      planes.push_back({{"robot", plane.robot}, {"obstacle", plane.obstacle}, {"normal", exact_json(plane.normal)}});
-    }
-    result.push_back({{"until", to_string(part.until)}, {"planes", std::move(planes)}});
+    result.push_back({{"until", to_string(part.until)}, {"planes", planes_json(part.planes)}});
   }
   return result;
 }
 
+json common_json(const CommonPoint& point) {
+  return {{"robot", numbers_json(point.robot)}, {"obstacle", numbers_json(point.obstacle)}};
+}
+
 json common_json(std::span<const CommonPoint> points) {
   json common = json::array();
-  for (const CommonPoint& point : points) {
-    common.push_back({{"robot", numbers_json(point.robot)}, {"obstacle", numbers_json(point.obstacle)}});
-  }
+  for (const CommonPoint& point : points) common.push_back(common_json(point));
   return common;
 }
 
@@ -78,13 +86,33 @@ json barrier_json(const PathProof::Barrier& barrier) {
   return {{"points", std::move(points)}, {"triangles", std::move(triangles)}};
 }
 
+json cone_json(const PathProof::Tight::Cone& cone) {
+  if (!cone.edge) return {{"contact", cone.contact}};
+  return {{"edge", *cone.edge}, {"halves", {cone_json(cone.halves[0]), cone_json(cone.halves[1])}}};
+}
+
+json tight_json(const PathProof::Tight& tight) {
+  json contacts = json::array();
+  for (const PathProof::Tight::Contact& contact : tight.contacts) {
+    if (contact.side) {
+      contacts.push_back({{"side", *contact.side}});
+    } else {
+      contacts.push_back(
+          {{"robot", contact.robot}, {"obstacle", contact.obstacle}, {"common", common_json(contact.common)}});
+    }
+  }
+  json octants = json::array();
+  for (const PathProof::Tight::Cone& cone : tight.octants) octants.push_back(cone_json(cone));
+  return {{"planes", planes_json(tight.planes)}, {"contacts", std::move(contacts)}, {"octants", std::move(octants)}};
+}
+
 RigidPose read_pose(const JsonReader& pose) {
   pose.require_keys({"position", "quaternion"});
   return {proof_point(pose["position"]), pose["quaternion"].exactly<4>(proof_number)};
 }
 
 PathProof::Claim read_claim(const JsonReader& claim) {
-  claim.require_keys({"status", "contact", "box", "robot", "obstacles", "path"});
+  claim.require_keys({"status", "contact", "box", "robot", "obstacles", "path"}, {"along"});
   PathProof::Claim result;
   result.status = static_cast<Status>(claim["status"].word(kStatusNames));
   result.contact = static_cast<ContactRule>(claim["contact"].word(std::array{"allow", "forbid"}));
@@ -92,16 +120,22 @@ PathProof::Claim read_claim(const JsonReader& claim) {
   result.robot = proof_pieces(claim["robot"]);
   result.obstacles = proof_pieces(claim["obstacles"]);
   result.path = claim["path"].list(read_pose);
+  if (claim.has("along") != (result.status == Status::kTight))
+    claim.fail("only a claim of tight passages has \"along\"");
+  if (claim.has("along")) {
+    result.along = claim["along"].list([](const JsonReader& vectors) { return vectors.list(proof_point); });
+  }
   return result;
+}
+
+PathProof::Plane read_plane(const JsonReader& plane) {
+  plane.require_keys({"robot", "obstacle", "normal"});
+  return {proof_index(plane["robot"]), proof_index(plane["obstacle"]), proof_point(plane["normal"])};
 }
 
 PathProof::Part read_part(const JsonReader& part) {
   part.require_keys({"until", "planes"});
-  return {proof_number(part["until"]), part["planes"].list([](const JsonReader& plane) {
-            plane.require_keys({"robot", "obstacle", "normal"});
-            return PathProof::Plane{proof_index(plane["robot"]), proof_index(plane["obstacle"]),
-                                    proof_point(plane["normal"])};
-          })};
+  return {proof_number(part["until"]), part["planes"].list(read_plane)};
 }
 
 CommonPoint read_common(const JsonReader& point) {
@@ -139,6 +173,37 @@ PathProof::Collision read_collision(const JsonReader& collision) {
   return result;
 }
 
+PathProof::Tight::Contact read_tight_contact(const JsonReader& contact) {
+  PathProof::Tight::Contact result;
+  if (contact.has("side")) {
+    contact.require_keys({"side"});
+    result.side = proof_index(contact["side"]);
+    return result;
+  }
+  contact.require_keys({"robot", "obstacle", "common"});
+  return {proof_index(contact["robot"]), proof_index(contact["obstacle"]), read_common(contact["common"]), {}};
+}
+
+PathProof::Tight::Cone read_tight_cone(const JsonReader& cone) {
+  PathProof::Tight::Cone result;
+  if (cone.has("edge")) {
+    cone.require_keys({"edge", "halves"});
+    result.edge = proof_index(cone["edge"]);
+    auto halves = cone["halves"].exactly<2>(read_tight_cone);
+    for (PathProof::Tight::Cone& half : halves) result.halves.push_back(std::move(half));
+    return result;
+  }
+  cone.require_keys({"contact"});
+  result.contact = proof_index(cone["contact"]);
+  return result;
+}
+
+PathProof::Tight read_tight(const JsonReader& tight) {
+  tight.require_keys({"planes", "contacts", "octants"});
+  return {tight["planes"].list(read_plane), tight["contacts"].list(read_tight_contact),
+          tight["octants"].exactly<8>(read_tight_cone)};
+}
+
 }  // namespace
 
 const char* status_word(PathProof::Claim::Status status) { return kStatusNames.at(static_cast<std::size_t>(status)); }
@@ -152,6 +217,10 @@ std::string proof_text(const PathProof& proof) {
   if (proof.collision) witness["collision"] = collision_json(*proof.collision);
   if (proof.outside) witness["outside"] = *proof.outside;
   if (proof.barrier) witness["barrier"] = barrier_json(*proof.barrier);
+  if (proof.claim.status == Status::kTight) {
+    witness["places"] = json::array();
+    for (const PathProof::Tight& tight : proof.tight) witness["places"].push_back(tight_json(tight));
+  }
   return proof_frame(claim_json(proof.claim), std::move(witness));
 }
 
@@ -170,6 +239,9 @@ PathProof parse_proof(const std::string& text, const std::string& name) {
   } else if (proof.claim.status == Status::kInfeasible) {
     witness.require_keys({"barrier"});
     proof.barrier = read_barrier(witness["barrier"]);
+  } else if (proof.claim.status == Status::kTight) {
+    witness.require_keys({"places"});
+    proof.tight = witness["places"].list(read_tight);
   } else if (witness.has("outside")) {
     witness.require_keys({"outside"});
     proof.outside = proof_index(witness["outside"]);

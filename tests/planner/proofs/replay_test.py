@@ -30,6 +30,11 @@ SHEET = {"robot": "hull(-1,-1,-1, 1,0,0, 0,1,0, 0,0,1)", "obstacles": ["polygon(
 NARROW = {"robot": "box(0,0,0, 1,1,1)", "obstacles": ["box(4,0,0, 5,3,3) - box(4,1,1, 5,2,19/10)"],
           "box": [[0, 0, 0], [8, 2, 2]], "start": [1, 1, 1], "goal": [7, 1, 1]}
 
+# A hole as wide as the robot, one as high, one between an obstacle and a side of the box, and a place of its own.
+TIGHT = {"robot": "box(0,0,0, 1,1,1)", "box": [[0, 0, 0], [20, 8, 8]],
+         "obstacles": ["box(4,0,0, 6,9,9) - box(3,3,3, 7,4,4)", "box(9,0,0, 10,9,9) - box(8,2,5, 11,6,6)",
+                       "box(13,0,0, 14,9,8) - box(13,0,0, 14,2,2) + box(13,1,0, 14,2,2)",
+                       "box(15,3,3, 18,6,6) - box(16,4,4, 17,5,5)"]}
 BOXED = {"parts": {"box": "box(0,0,0, 3,3,3) - box(1,1,1, 2,2,2)", "cube": "box(1,1,1, 2,2,2)"}}
 WEDGED = {"parts": {"mould": "box(-1,-1,-1, 4,4,4) - hull(0,0,0, 3,0,0, 0,3,0, 0,0,3)",
                     "left": "hull(0,0,0, 1,0,0, 0,3,0, 0,0,3)", "right": "hull(1,0,0, 3,0,0, 0,3,0, 0,0,3)"}}
@@ -42,16 +47,18 @@ CASES = [
     ("sheet", SHEET, "0 0 0 0 0 1 3\n0 5 0 0 0 0 1\n", "blocked: motion 0"),
     ("outside", SHEET, "0 0 0 0 0 1 3\n0 0 9 0 0 0 1\n", "blocked: pose 1 is outside"),
     ("narrower", NARROW, None, "infeasible: "),
+    ("tight", TIGHT, None, "tight: 6 passages"),
     ("boxed", BOXED, None, "inseparable: no set of 2 parts"),
     ("wedged", WEDGED, None, "inseparable: no set of 3 parts"),
     ("apart", dict(SHEET, contact="forbid"), "0 0 0 0 0 1 3\n2 1 1 1 2 -1 3\n", "path: all 1 motions are free"),
 ]
-TAMPERED = {"narrower": 600, "boxed": 150, "wedged": 150}  # proofs whose checks take a twentieth of a second and more
+TAMPERED = {"tight": 600, "narrower": 600, "boxed": 150, "wedged": 150}  # proofs whose checks take a twentieth of a second and more
 TAMPERED_OTHERS = 1700  # of each other one
 
 # What may change in a proof that still holds: it has other numbers that show the same.
 IRRELEVANT = re.compile(r"/witness/(motions/\d+(/\d+(/planes(/\d+(/(normal|robot|obstacle)(/\d)?)?)?|/until)?)?|collision/times(/\d)?|barrier/points(/\d+(/\d)?)?|"
                         r"barrier/triangles(/\d+(/corners(/\d)?|/robot|/obstacle)?)?|"
+                        r"places(/\d+(/(planes(/\d+(/(normal|robot|obstacle)(/\d)?)?)?|contacts(/\d+(/(robot|obstacle))?)?|octants(/.*)?))?)?|"
                         r"contacts(/\d+(/(first|second)(/\d)?)?)?|octants(/.*)?)$")
 
 
@@ -118,11 +125,15 @@ class Replay(unittest.TestCase):
     def prove(self, name, scene, path):
         file = self.write(name + ".json", json.dumps(scene))
         arguments = ["--assembly", file] if "parts" in scene else [file]
+        if name == "tight":
+            arguments.append("--tight")
         if path is not None:
             arguments += ["--path", self.write(name + ".path", path)]
         proof = self.file(name + ".proof")
         run = planner(*arguments, "--proof", proof)
         self.assertIn(run.returncode, (0, 1), run.stderr)
+        if name == "tight":
+            arguments.remove("--tight")
         with open(proof, encoding="utf-8") as file:
             return arguments, file.read()
 

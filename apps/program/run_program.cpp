@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/program/run_program.h"
 
+#include <algorithm>
+#include <array>
 #include <iostream>
 #include <new>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "apps/program/nearest_word.h"
 #include "apps/program/stack.h"
@@ -56,13 +59,31 @@ std::vector<std::string> option_names(const CLI::App& app) {
   return names;
 }
 
+// What other programs call these subcommands.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 20> kOtherNames{{
+    {"add", "union"},         {"combine", "union"},    {"cut", "difference"},      {"diff", "difference"},
+    {"evaluate", "eval"},     {"export", "convert"},   {"fix", "repair"},          {"intersect", "intersection"},
+    {"merge", "union"},       {"mirror", "transform"}, {"move", "transform"},      {"reduce", "decimate"},
+    {"render", "picture"},    {"rotate", "transform"}, {"scale", "transform"},     {"show", "view"},
+    {"simplify", "decimate"}, {"slice", "section"},    {"subtract", "difference"}, {"translate", "transform"},
+}};
+
+std::string suggested_subcommand(const CLI::App& app, const std::string& word) {
+  const std::vector<std::string> names = subcommand_names(app);
+  for (const auto& [other, name] : kOtherNames) {
+    if (word != other || std::find(names.begin(), names.end(), name) == names.end()) continue;
+    return "; did you mean '" + std::string(name) + "'?";
+  }
+  return did_you_mean(word, names);
+}
+
 // What is wrong with a command line. An option that does not exist comes first: what is missing beside it may be what
 // it was meant for.
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<std::string> left = app.remaining(true);
   const bool lacks_command = !subcommand_names(app).empty() && app.get_subcommands().empty();
   if (lacks_command && !left.empty() && left.front().front() != '-') {
-    return "there is no subcommand '" + left.front() + "'" + did_you_mean(left.front(), subcommand_names(app));
+    return "there is no subcommand '" + left.front() + "'" + suggested_subcommand(app, left.front());
   }
   for (const std::string& word : left) {
     // After "--" nothing is an option.

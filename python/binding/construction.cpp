@@ -67,7 +67,7 @@ Polyhedron hull(py::handle points) {
 
 Polyhedron polygon(const py::iterable& rings) {
   std::vector<std::vector<Rational3>> held;
-  for (const py::handle ring : rings) held.push_back(to_points(ring, "a ring"));
+  for (const py::handle ring : rings) held.push_back(to_points(ring, "each list in rings"));
   return make_polygon(held);
 }
 
@@ -216,8 +216,8 @@ points: an array of shape (N, 3) of floats, integers or Fractions, or a sequence
   m.def("polygon", &polygon, py::arg("rings"),
         R"(A closed planar polygon: outer rings and holes in one plane, in any order.
 
-rings: an iterable of arrays of shape (N, 3). Raises InputError if the points do not lie in one plane exactly, or a ring
-touches or crosses itself.)");
+rings: an iterable of arrays of shape (N, 3); write ``[ring]`` for a single one. Raises InputError if the points do not
+lie in one plane exactly, or a ring touches or crosses itself.)");
   m.def("_from_mesh", &solid_from_mesh, py::arg("vertices"), py::arg("faces"), py::arg("strict"), py::arg("surface"),
         py::arg("check"), py::arg("crossings"), py::arg("close"));
   m.def("_repair", &repaired, py::arg("vertices"), py::arg("faces"), py::arg("strict"), py::arg("fill_holes"),

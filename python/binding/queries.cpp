@@ -141,7 +141,13 @@ points: three numbers for one point, which gives a bool; or an array of shape (N
 which gives a bool array of shape (N,). threads: for arrays of floats; 0: as many as the machine has. Raises InputError
 for a coordinate that is not a finite number.)")
       .def(
-          "__contains__", [](const Polyhedron& a, py::handle p) { return contains(a, to_triple(p, "a point")); },
+          "__contains__",
+          [](const Polyhedron& a, py::handle p) {
+            if (py::isinstance<Polyhedron>(p)) {
+              throw InputError("a point needs three numbers; b <= a asks whether the set b is a subset of a");
+            }
+            return contains(a, to_triple(p, "a point"));
+          },
           py::arg("point"))
       .def("labels_at", &labels_at, py::arg("points"), py::arg("threads") = 1,
            "The labels at points: as contains, with integers for bools.")

@@ -49,9 +49,27 @@ if TYPE_CHECKING:
 _APPLICATIONS = ("minkowski", "planner", "visual_hull")
 
 
+# What other packages call what this one has.
+_OF_MODULE = {
+    "union": "a | b, or unite_all", "intersection": "a & b, or intersect_all", "difference": "a - b",
+    "symmetric_difference": "a ^ b", "complement": "~a", "cube": "box", "load": "read", "Box": "box", "Sphere": "sphere",
+    "convex_hull": "hull", "minkowski_sum": "minkowski.sum", "offset": "minkowski.offset",
+    "decimate": "the program `nef decimate`", "simplify": "the program `nef decimate`",
+}
+_OF_SET = {
+    "union": "a | b", "intersection": "a & b", "difference": "a - b", "symmetric_difference": "a ^ b", "complement": "~a",
+    "issubset": "a <= b", "issuperset": "a >= b", "area": "surface_area", "bounds": "bounding_box", "copy": "a itself: sets are immutable",
+    "vertices": "to_mesh, which returns vertices and faces", "faces": "to_mesh, which returns vertices and faces",
+    "save": "write", "export": "write", "hull": "nef.minkowski.hull", "convex_hull": "nef.minkowski.hull",
+    "offset": "nef.minkowski.offset", "minkowski_sum": "nef.minkowski.sum",
+    "decimate": "the program `nef decimate`", "simplify": "the program `nef decimate`",
+}
+
+
 def __getattr__(name):
     if name not in _APPLICATIONS:
-        raise AttributeError(f"module 'nef' has no attribute {name!r}")
+        hint = f"; use {_OF_MODULE[name]}" if name in _OF_MODULE else ""
+        raise AttributeError(f"module 'nef' has no attribute {name!r}{hint}")
     try:
         return importlib.import_module("nef." + name)
     except ImportError:
@@ -103,6 +121,11 @@ def _repr(self):
             f"{n.shells} shells>")
 
 
+def _missing(self, name):
+    hint = f"; use {_OF_SET[name]}" if name in _OF_SET else ""
+    raise AttributeError(f"'nef.Polyhedron' object has no attribute {name!r}{hint}")
+
+
 def _tiled_repr(self):
     return f"<nef.TiledPolyhedron: {self.tile_count()} tiles, {self.vertex_count()} vertices in them>"
 
@@ -111,6 +134,7 @@ TiledPolyhedron.__module__ = "nef"
 TiledPolyhedron.__repr__ = _tiled_repr
 Polyhedron.__module__ = "nef"
 Polyhedron.__repr__ = _repr
+Polyhedron.__getattr__ = _missing
 Polyhedron.to_trimesh = _meshes.to_trimesh
 Polyhedron.to_open3d = _meshes.to_open3d
 Polyhedron.to_meshio = _meshes.to_meshio

@@ -12,6 +12,7 @@
 #include "apps/program/numbers.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
+#include "nef/base/word_list.h"
 #include "nef/distance/distance.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
@@ -20,6 +21,7 @@
 #include "nef/parts/section.h"
 #include "nef/parts/split.h"
 #include "nef/polyhedron.h"
+#include "nef/tiles/storage/tile_folder.h"
 
 namespace nef {
 namespace {
@@ -31,6 +33,12 @@ void write_section(Session& session, const Section& section, const Rational3& no
   } else if (extension == "dxf") {
     write_file(session.output, section_dxf(section, normal));
   } else {
+    std::vector<std::string> known = file_extensions();
+    const bool is_known = std::find(known.begin(), known.end(), extension) != known.end();
+    if (session.format.empty() && !extension.empty() && !is_known && !names_tile_folder(session.output)) {
+      known.insert(known.begin(), {"svg", "dxf"});
+      throw InputError(session.output + ": unknown extension; use " + word_list(known, "or"));
+    }
     session.store(section.set);
     return;
   }

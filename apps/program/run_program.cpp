@@ -91,6 +91,14 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
     if (word.size() < 2 || word.front() != '-') continue;
     return "there is no option '" + word + "'" + did_you_mean(word.substr(0, word.find('=')), option_names(app));
   }
+  const bool is_extra = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+  const bool is_missing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+  if (!left.empty() && (is_extra || is_missing)) {
+    const std::vector<std::string> options = option_names(app);
+    const bool writes = std::find(options.begin(), options.end(), "--output") != options.end();
+    return (is_missing ? std::string(error.what()) + "; " : "") + "unexpected argument '" + left.front() + "'" +
+           (writes ? "; an output file is named with -o" : "");
+  }
   return error.what();
 }
 

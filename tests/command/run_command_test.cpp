@@ -62,6 +62,9 @@ TEST_CASE("usage errors are one line and exit code 2") {
   check_refused(here.nef("intersection a.off"), "nef intersection --help");
   check_refused(here.nef("difference a.off"), "nef difference --help");
   check_refused(here.nef("convert a.off"), "--output");
+  check_refused(here.nef("convert a.off b.off"),
+                "--output is required; unexpected argument 'b.off'; an output file is named with -o");
+  check_refused(here.nef("info a.off b.off"), "unexpected argument 'b.off' (see nef info --help)");
   check_refused(here.nef("info a.off --frob"), "--frob");
   check_refused(here.nef("locate a.off 1,2"), "1,2");
   check_refused(here.nef("locate a.off 1,2,three"), "three");

@@ -1,4 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// The frame of all programs: what a command line lacks, what an exception says, and the exit code.
+//
+// A word that is no subcommand or option is looked up among the names that other programs use, then among those that
+// are spelled almost alike. Every error becomes one line on standard error.
 #include "apps/program/run_program.h"
 
 #include <algorithm>

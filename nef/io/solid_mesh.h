@@ -14,7 +14,7 @@ struct SolidMeshOptions {
   bool manifold = false;  ///< each edge has two faces (see separate_sheets)
   bool recenter = false;  ///< subtract the middle of the mesh (see recenter)
   bool repair = false;    ///< vertices are doubles, at which the mesh is strictly legal; they are exact otherwise
-  Monitor monitor = {};   ///< who watches
+  Monitor monitor = {};   ///< cancellation, progress, counters
 };
 
 /// What solid_mesh makes.

@@ -144,7 +144,7 @@ for a coordinate that is not a finite number.)")
           "__contains__",
           [](const Polyhedron& a, py::handle p) {
             if (py::isinstance<Polyhedron>(p)) {
-              throw InputError("a point needs three numbers; b <= a asks whether the set b is a subset of a");
+              throw InputError("a point needs three numbers; write b <= a for sets: whether b is a subset of a");
             }
             return contains(a, to_triple(p, "a point"));
           },

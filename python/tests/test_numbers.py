@@ -74,7 +74,7 @@ def test_shapes_are_told():
         nef.hull([[1, 2], [3, 4]])
     with pytest.raises(ValueError, match="each row of each list in rings"):
         nef.polygon([(0, 0, 0), (1, 0, 0), (0, 1, 0)])
-    with pytest.raises(ValueError, match="b <= a"):
+    with pytest.raises(ValueError, match="write b <= a for sets"):
         nef.point((0, 0, 0)) in nef.box((0, 0, 0), (1, 1, 1))
     with pytest.raises(nef.InputError, match="point 1"):
         nef.box((0, 0, 0), (1, 1, 1)).contains(numpy.array([[0, 0, 0], [0, numpy.nan, 0]]))

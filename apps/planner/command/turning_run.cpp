@@ -99,7 +99,7 @@ std::string turning_text(const TurningAnswer& answer, const TurningAxis& axis) {
 TurningProof read_turning_proof(const std::string& file) {
   const json value = parse_exact_json(read_file(file), file);
   const JsonReader report(value, file);
-  if (!report.has("proof")) report.fail("no report with a proof (status infeasible)");
+  if (!report.has("proof")) report.fail("this report has no proof; only one with the status infeasible has");
   const JsonReader root = report["proof"];
   root.require_keys({"breakpoints", "cells"});
   TurningProof proof;
@@ -180,9 +180,13 @@ std::vector<view::Layer> turning_layers(const TurningAnswer& answer, const Scene
 }
 
 int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& widest) {
+  if (a.app->count("--proof") > 0) {
+    throw InputError(
+        "--proof: a scene with a rotation has its proof in the report (-o FILE.json), if it is infeasible");
+  }
   exclude(a, "a scene with a rotation",
           {"--tight", "--path", "--queries", "--benchmark", "--min-dimension", "--clearance", "--raw", "--quick",
-           "--prefer", "--se3", "--proof"});
+           "--prefer", "--se3"});
   require_extensions(a, "for a scene with a rotation", {"json", "txt", "csv", "glb", "html"});
   if (!a.ompl.empty() && a.path.digits) {
     throw InputError("--digits: OMPL's paths of a robot that turns cannot be rounded");

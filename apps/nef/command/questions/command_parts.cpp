@@ -56,6 +56,7 @@ void run_section(Session& session, const std::string& plane) {
   const Section cut = section(set, normal, n[3], session.monitor);
   const double section_s = watch.seconds();
   if (!session.output.empty()) write_section(session, cut, normal);
+  if (cut.set.is_empty()) session.note("the plane does not meet the set");
   if (session.json) {
     session.spent("op", section_s);
     Json object;

@@ -37,7 +37,7 @@ struct PolyhedronWriteOptions {
   bool manifold = false;  ///< in mesh files each edge has two faces (separate_sheets; not in STL, and
                           ///< not together with groups)
   bool lenient = false;   ///< write a mesh even if it is known not to be strictly legal
-  bool recenter = false;  ///< subtract the middle of the mesh from its coordinates, so that few digits are lost
+  bool recenter = false;  ///< subtract middle_of_few_digits from the coordinates, so that few digits are lost
   /// Red, green and blue for the vertices of the mesh that goes to a file; PLY and GLB only.
   std::function<std::vector<std::array<std::uint8_t, 3>>(const Mesh&)> vertex_colors = {};
   std::string format = {};  ///< instead of the extension of the path, which may be none

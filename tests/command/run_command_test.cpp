@@ -58,6 +58,7 @@ TEST_CASE("usage errors are one line and exit code 2") {
   check_refused(here.nef("section a.off --plane 0,0,1,-1 -o b.pdf"), "svg, dxf, nef,");
   check_refused(here.nef("info a.off --thraeds 2"),
                 "no option '--thraeds'; did you mean '--threads'? (see nef info --help)");
+  check_refused(here.nef("eval a.off -o b.off"), R"(a.off is a file: write 'file("a.off")')");
   check_refused(here.nef("eval model.scad -o b.off"), "openscad -o model.csg model.scad");
   check_refused(here.nef("intersection a.off"), "nef intersection --help");
   check_refused(here.nef("difference a.off"), "nef difference --help");

@@ -252,7 +252,7 @@ corners: around, from 3 to 100000.)");
         R"(The set whose points carry the label function(label in a, label in b).
 
 Labels are ints from 0; an ordinary set has 1 where it is and 0 elsewhere. The function is called once for each pair of
-labels, also of such that meet nowhere.)");
+labels, also for pairs that occur nowhere.)");
 }
 
 }  // namespace nef::python

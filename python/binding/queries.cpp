@@ -160,7 +160,8 @@ for a coordinate that is not a finite number.)")
            R"(The first vertex, edge or facet on the open ray from `origin` (excluded) in `direction` (not zero):
 nef.RayHit(point, location), the point in Fractions; or None.)")
       .def("section", &section_of, py::arg("normal"), py::arg("offset"), py::arg("exact") = false,
-           R"(The section with the plane of all points x with normal . x + offset = 0: nef.Section.
+           R"(The section with the plane of all points x with normal . x + offset = 0: nef.Section. The plane
+z = 1 is ``section((0, 0, 1), -1)``.
 
 Its `set` is exact; `polygons`, `segments` and `points` are the nearest doubles, or Fractions if `exact`. Raises
 InputError if the normal is zero.)")

@@ -39,7 +39,7 @@ class BuildByCMake(build_ext):
         shutil.copytree(package, pathlib.Path(self.build_lib) / "nef", dirs_exist_ok=True)
 
 
-VERSION = re.search(r"project\(nef_suite VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
+VERSION = re.search('define NEF_VERSION "(.*)"', (ROOT / "nef" / "version.h").read_text()).group(1)
 
 # The one extension stands for all that CMake builds; it makes the wheel one for this platform.
 setuptools.setup(version=VERSION, packages=[], ext_modules=[setuptools.Extension("nef._nef", [])],

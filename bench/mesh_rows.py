@@ -2,13 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """What meshes that cross themselves cost: each row is generated, read by `nef info --crossings union`, and measured.
 
-  bench/mesh_rows.py [--nef build/release/bin/nef] [--passes 3] [--keep FOLDER] [MESH ...]
+  bench/mesh_rows.py [--nef build/release/bin/nef] [--cgal build/release/bin/nef_bench_autorefine] [--passes 3]
+                     [--keep FOLDER] [MESH ...]
 
 Rows: two cylinders of 1457 sides that touch along a strip (slender triangles, few contacts); 5000 random tetrahedra in one mesh; 15 bumpy
 spheres of 6720 triangles that overlap; one of 99,856 triangles with two small spikes that cross each other; and any MESH that is given. Columns: pairs of faces that cross, seconds
 of reading (`load_s` of the report), CPU seconds and megabytes of the run: the best of the passes. Generated meshes stand for
 models that are not shipped; --keep writes them. Coordinates have seven digits, as scans in single precision do; with --digits 17
-they have all that doubles have, and planes are longer.
+they have all that doubles have, and planes are longer. With --cgal (target nef_bench_autorefine, where CGAL is installed) two more columns:
+CPU seconds of its autorefine_and_remove_self_intersections on the mesh that is already read, in turn with ours, and reading by ours over that.
 """
 import argparse
 import json
@@ -108,10 +110,26 @@ def measure(nef, path, passes):
     return best
 
 
+def autorefine(program, path, passes):
+    """CPU seconds of CGAL, the best of the passes, or why there are none."""
+    best = None
+    for _ in range(passes):
+        try:
+            run = subprocess.run([program, str(path)], capture_output=True, text=True, check=False, timeout=600)
+        except subprocess.TimeoutExpired:
+            return "over 600 s"
+        if run.returncode != 0:
+            return "refused" if run.returncode > 0 else "crashed"
+        seconds = json.loads(run.stdout)["seconds"]
+        best = seconds if best is None else min(best, seconds)
+    return best
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("meshes", nargs="*", type=pathlib.Path)
     parser.add_argument("--nef", default="build/release/bin/nef")
+    parser.add_argument("--cgal", type=pathlib.Path, help="nef_bench_autorefine")
     parser.add_argument("--passes", type=int, default=3)
     parser.add_argument("--digits", type=int, default=7, help="of coordinates")
     parser.add_argument("--keep", type=pathlib.Path, help="keep the generated meshes there")
@@ -126,13 +144,17 @@ def main():
         for name, make in made.items():
             paths.append(folder / f"{name}.off")
             write_off(paths[-1], make(), options.digits)
-        print(f"{'mesh':30}{'pairs':>8}{'load s':>9}{'CPU s':>9}{'MB':>7}")
+        print(f"{'mesh':30}{'pairs':>8}{'load s':>9}{'CPU s':>9}{'MB':>7}" + (f"{'CGAL s':>12}{'ratio':>8}" if options.cgal else ""))
         for path in paths + options.meshes:
             row = measure(options.nef, path, options.passes)
             if row is None:
                 print(f"{path.stem:30} refused")
             else:
-                print(f"{path.stem:30}{row[3]:8}{row[0]:9.3f}{row[1]:9.2f}{row[2]:7.0f}", flush=True)
+                line = f"{path.stem:30}{row[3]:8}{row[0]:9.3f}{row[1]:9.2f}{row[2]:7.0f}"
+                if options.cgal:
+                    peer = autorefine(options.cgal, path, options.passes)
+                    line += f"{peer:12.3f}{row[0] / peer:8.2f}" if isinstance(peer, float) else f"{peer:>12}"
+                print(line, flush=True)
     return 0
 
 

@@ -21,4 +21,5 @@
 #include "nef/polyhedron.h"
 #include "nef/query/measure.h"
 #include "nef/validation/validate.h"
+#include "nef/version.h"
 // IWYU pragma: end_exports

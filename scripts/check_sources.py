@@ -78,11 +78,11 @@ def untested_sources() -> list[str]:
 
 
 def other_versions() -> list[str]:
-    """Recipes of packages that name another version than CMakeLists.txt does."""
-    version = re.search(r"project\(nef_suite VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")).group(1)
+    """Recipes of packages that name another version than nef/version.h does."""
+    version = re.search('define NEF_VERSION "(.*)"', (ROOT / "nef" / "version.h").read_text(encoding="utf-8")).group(1)
     recipes = {"packaging/vcpkg/vcpkg.json": r'"version-semver": "(.*)"', "packaging/conda/recipe.yaml": r'version: "(.*)"'}
     named = {path: re.search(pattern, (ROOT / path).read_text(encoding="utf-8")).group(1) for path, pattern in recipes.items()}
-    return [f"{path} is of version {other}, CMakeLists.txt of {version}" for path, other in named.items() if other != version]
+    return [f"{path} is of version {other}, nef/version.h of {version}" for path, other in named.items() if other != version]
 
 
 def main() -> int:

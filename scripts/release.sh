@@ -6,14 +6,14 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
-version=$(sed -n 's/^project(nef_suite VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)
+version=$(sed -n 's/^#define NEF_VERSION "\(.*\)"$/\1/p' nef/version.h)
 
 if [ -n "$(git status --porcelain)" ]; then
   echo "release.sh: there are changes that are not committed; commit or stash them" >&2
   exit 1
 fi
 if git rev-parse -q --verify "refs/tags/v$version" >/dev/null; then
-  echo "release.sh: version $version is tagged already; set the next one in CMakeLists.txt" >&2
+  echo "release.sh: version $version is tagged already; set the next one in nef/version.h" >&2
   exit 1
 fi
 # What is new since the last release: the section of this version, or what is unreleased while packing is tried.

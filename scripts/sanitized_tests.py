@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Builds test programs with sanitizers and runs their cases, each in a process of its own; prints what fails.
 
-Programs come one after the other, those first that runs have left out, then those of the core and of what changed, then the
-others (see ci_selection.py). No case is begun, and no program built, after so many seconds. Exits 1 if a case fails, or if a
-program was left out that was due.
+Items are programs, and parts of those that take long. They come one after the other, those first that runs have left out,
+then those of the core and of what changed, then the others (see ci_selection.py). No case is begun, and no program built,
+after so many seconds. Exits 1 if a case fails, or if an item was left out that was due.
 
 Usage: sanitized_tests.py BUILD --seconds N     for instance build/sanitize, which is configured
 """
@@ -16,12 +16,16 @@ import subprocess
 import sys
 import threading
 import time
+import zlib
 
 import ci_selection
 
 LIMIT = 900  # seconds; a case that takes longer has failed
-THIRDS = [{"test_planner", "test_laws", "test_remeshing", "test_query"}, {"test_visual_hull", "test_io", "test_core", "test_view"},
-          {"test_tiles", "test_minkowski", "test_nef_mpi", "test_command"}]
+PARTS = 3
+LONG = {"test_planner", "test_visual_hull"}  # in parts, one in each third
+# The other programs, so that thirds take about equally long.
+THIRDS = [{"test_nef_mpi", "test_command", "test_query"}, {"test_minkowski", "test_core", "test_laws"},
+          {"test_tiles", "test_io", "test_view", "test_remeshing"}]
 
 
 def cases(program: str) -> list[str]:
@@ -47,9 +51,26 @@ def run(program: str, case: str) -> subprocess.CompletedProcess:
     return subprocess.run(command, capture_output=True, text=True, errors="replace", env=environment, check=False)
 
 
-def third(program: str) -> int:
-    """In which third of the programs one is, so that thirds take about equally long."""
-    return next((i for i, group in enumerate(THIRDS) if program in group), 0)
+def items(program: str) -> list[str]:
+    return [f"{program} {part + 1}/{PARTS}" for part in range(PARTS)] if program in LONG else [program]
+
+
+def program_of(item: str) -> str:
+    return item.split()[0]
+
+
+def third(item: str) -> int:
+    """In which third of the items one is."""
+    program = program_of(item)
+    return items(program).index(item) if program in LONG else next((i for i, group in enumerate(THIRDS) if program in group), 0)
+
+
+def cases_of(item: str, build: str) -> list[str]:
+    program = program_of(item)
+    listed = cases(f"{build}/bin/{program}")
+    if program not in LONG:
+        return listed
+    return [case for case in listed if zlib.crc32(case.encode()) % PARTS == third(item)]
 
 
 def names(build: str) -> list[str]:
@@ -68,7 +89,8 @@ def main() -> int:
     files = ci_selection.changed()
     concerned = {program for program in programs
                  if "nef/" in folders(program) or any(file.startswith(folders(program)) for file in files)}
-    choice = ci_selection.Choice({program: [program] for program in programs}, concerned, third)
+    every = [item for program in programs for item in items(program)]
+    choice = ci_selection.Choice({item: [item] for item in every}, {item for item in every if program_of(item) in concerned}, third)
     failed = []
     printing = threading.Lock()
 
@@ -88,7 +110,8 @@ def main() -> int:
 
     done = set()
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for program in choice.order:
+        for item in choice.order:
+            program = program_of(item)
             begin = time.monotonic()
             if begin > end:
                 break
@@ -98,12 +121,12 @@ def main() -> int:
                 print(built.stdout[-4000:])
                 return 1
             middle = time.monotonic()
-            all_cases = cases(f"{arguments.build}/bin/{program}")
-            looked = list(pool.map(look, [program] * len(all_cases), all_cases))
-            print(f"-- {program}: {middle - begin:.0f} s to build, {time.monotonic() - middle:.0f} s for {sum(looked)} of "
+            chosen = cases_of(item, arguments.build)
+            looked = list(pool.map(look, [program] * len(chosen), chosen))
+            print(f"-- {item}: {middle - begin:.0f} s to build, {time.monotonic() - middle:.0f} s for {sum(looked)} of "
                   f"{len(looked)} cases", flush=True)
             if looked and all(looked):
-                done.add(program)
+                done.add(item)
     complete = choice.end(done)
     print(f"{len(failed)} cases failed")
     return 0 if complete and not failed else 1

@@ -27,6 +27,7 @@
 #include "nef/io/file_bytes.h"
 #include "nef/tiles/storage/tile_folder.h"
 #include "nef/tiles/tile_tree.h"
+#include "nef/version.h"
 
 namespace nef::mpi {
 namespace {

@@ -6,6 +6,7 @@
 
 #include <CLI/Version.hpp>
 
+#include "nef/version.h"
 #include "nef_commit.h"  // made by cmake/Commit.cmake
 
 namespace nef {

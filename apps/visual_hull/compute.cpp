@@ -319,36 +319,52 @@ void compare(const Run& run, const Scene& scene, Result& result, Place& place, R
   }
 }
 
-/// Cones, one a view; views that keep what they do not see have the complement of their background.
+/// What a view leaves of the room: its cone; of a view that keeps what it does not see, the complement of the cone of
+/// its background.
+Part part_of(ViewResult& view, const Camera& camera, const Room& room, const nef::Monitor& monitor) {
+  nef::Polyhedron cone = make_cone(camera, view.silhouette.region, room.box, monitor);
+  view.cone_facets = nef::counts(cone).facets;
+  if (view.silhouette.background) cone = nef::complement(nef::interior(cone, monitor));
+  return {std::move(cone), camera.axis()};
+}
+
 std::vector<Part> cones_of(const Run& run, Views& views, const Place& place, const Room& room,
                            const nef::Monitor& monitor) {
   std::vector<Part> parts(views.size());
   run.each_view(Phase::kCones, views, monitor, [&](std::size_t i, const nef::Monitor& own) {
-    ViewResult& view = views[i];
-    nef::Polyhedron cone = make_cone(place.cameras[i], view.silhouette.region, room.box, own);
-    view.cone_facets = nef::counts(cone).facets;
-    if (view.silhouette.background) cone = nef::complement(nef::interior(cone, own));
-    parts[i] = {std::move(cone), place.cameras[i].axis()};
+    parts[i] = part_of(views[i], place.cameras[i], room, own);
   });
   return parts;
 }
 
-/// The hull vertex by vertex, where the views allow that and it is worth it.
-std::optional<nef::Polyhedron> direct(const Run& run, const Views& views, const Place& place, const Room& room,
-                                      const nef::Monitor& monitor) {
-  std::vector<DirectView> inputs;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    if (views[i].silhouette.background) return std::nullopt;
-    inputs.push_back({&place.cameras[i], &views[i].silhouette.region});
+/// True if a box that was given may cut the hull.
+bool box_cuts(const Room& room) {
+  bool cuts = false;
+  for (std::size_t i = 0; i < 3 && !room.found; ++i) {
+    cuts = cuts || room.enclosing->low[i] <= room.box.low[i] || room.enclosing->high[i] >= room.box.high[i];
   }
+  return cuts;
+}
+
+/// The hull vertex by vertex, where the views allow that and it is worth it. A box that cuts it and views that keep
+/// what they do not see come afterwards, as operands of Booleans.
+std::optional<nef::Polyhedron> direct(const Run& run, Views& views, const Place& place, const Room& room,
+                                      const nef::Monitor& monitor) {
   if (!room.enclosing) return std::nullopt;
   if (run.options.way == Way::kBest && !worth_direct(views)) return std::nullopt;
-  for (std::size_t i = 0; i < 3 && !room.found; ++i) {
-    if (room.enclosing->low[i] <= room.box.low[i] || room.enclosing->high[i] >= room.box.high[i]) return std::nullopt;
+  std::vector<DirectView> inputs;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (!views[i].silhouette.background) inputs.push_back({&place.cameras[i], &views[i].silhouette.region});
   }
   run.tell(Phase::kIntersection, "edges", 0, 1);
   std::optional<nef::Polyhedron> hull = direct_hull(inputs, *room.enclosing, monitor);
-  if (hull && nef::counts(*hull).volumes < 2) return std::nullopt;  // empty or flat: the general way finds out why
+  if (!hull) return std::nullopt;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (!views[i].silhouette.background) continue;
+    hull = nef::intersect(*hull, part_of(views[i], place.cameras[i], room, monitor).solid, monitor);
+  }
+  if (box_cuts(room)) hull = nef::intersect(*hull, nef::make_box(room.box.low, room.box.high, monitor), monitor);
+  if (nef::counts(*hull).volumes < 2) return std::nullopt;  // empty or flat: the general way finds out why
   return hull;
 }
 
@@ -453,8 +469,9 @@ FoundHull hull_in_room(const Run& run, const Place& place, const Room& room, Vie
   if (made) return {*std::move(made), true, std::nullopt};
   if (run.options.way == Way::kDirect) {
     throw nef::InputError(
-        "--way direct does not work for these views (fewer than three, a camera in the box, background, a box that "
-        "cuts the hull, or too many coincidences that doubles do not decide); use --way cones");
+        "--way direct does not work for these views (fewer than three that are not cut by the frame, views that do not "
+        "bound the hull, a camera too close to it, or too many coincidences that doubles do not decide); use --way "
+        "cones");
   }
   return hull_of_cones(run, place, room, views, phases, monitor);
 }

@@ -73,16 +73,6 @@ py::object write(const Polyhedron& a, py::handle path, bool exact, bool binary, 
   return floats_of(made.first.offset);
 }
 
-RoundedMesh nearest(const Mesh& mesh) {
-  RoundedMesh result;
-  for (const Rational3& p : mesh.vertices) {
-    result.vertices.push_back({nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])});
-  }
-  result.face_begin = mesh.face_begin;
-  result.corners = mesh.corners;
-  return result;
-}
-
 py::tuple mesh_of(const Polyhedron& a, bool polygons, bool exact, bool manifold, bool recenter, bool repair) {
   if (exact && repair) throw InputError("exact coordinates are not rounded, so there is nothing to repair");
   if (manifold || recenter || repair) {

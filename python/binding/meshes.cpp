@@ -83,6 +83,16 @@ Mesh mesh_from_arrays(py::handle vertices, py::handle faces) {
   return mesh;
 }
 
+RoundedMesh nearest(const Mesh& mesh) {
+  RoundedMesh result;
+  for (const Rational3& p : mesh.vertices) {
+    result.vertices.push_back({nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])});
+  }
+  result.face_begin = mesh.face_begin;
+  result.corners = mesh.corners;
+  return result;
+}
+
 py::tuple mesh_to_arrays(RoundedMesh&& mesh, bool triangles) {
   const py::object faces = faces_of(mesh.corners, mesh.face_begin, triangles);
   return py::make_tuple(array_of(std::move(mesh.vertices)), faces);

@@ -3,6 +3,7 @@
 #include "binding/base/errors.h"
 #include "binding/base/signatures.h"
 #include "nef/polyhedron.h"
+#include "nef/version.h"
 
 PYBIND11_MODULE(_nef, module) {
   module.doc() = "The core of the package nef; see there.";

@@ -18,7 +18,8 @@ exception is raised at once, the computation stops soon after in its thread, and
 immutable, so nothing is ever half done. Operators and functions of this package report their progress inside
 `with nef.progress(function)`.
 
-The applications are the modules nef.minkowski, nef.visual_hull and nef.planner, which are imported on first use.
+The applications are the modules nef.minkowski, nef.visual_hull, nef.planner and nef.remeshing, which are imported on first
+use.
 """
 import contextlib
 import importlib.util
@@ -44,9 +45,9 @@ __all__ = [
 
 
 if TYPE_CHECKING:
-    from . import minkowski, planner, visual_hull
+    from . import minkowski, planner, remeshing, visual_hull
 
-_APPLICATIONS = ("minkowski", "planner", "visual_hull")
+_APPLICATIONS = ("minkowski", "planner", "remeshing", "visual_hull")
 
 
 # What other packages call what this one has.

@@ -141,3 +141,29 @@ def free_directions(parts: Parts, part: str) -> FreeDirections:
         raise InputError(f"part {part!r} is not one of {', '.join(names)}")
     cone, dimension, everything, rays, stops = _planner.free_directions(names, sets, names.index(part))
     return FreeDirections(cone, dimension, everything, rays, [(names[other], normals) for other, normals in stops])
+
+
+def prove_inseparable(parts: Parts) -> str:
+    """A proof that no set of these parts can begin to move by translation while the others rest, as the text of a .proof
+    file (`planner --assembly --proof`). Raises InputError if some can.
+
+    - parts: {name: Polyhedron} of bounded solids, or an assembly's file: all parts that `Inseparable.parts` names, say
+
+        >>> import nef
+        >>> from nef import planner
+        >>> shell = nef.box((0, 0, 0), (3, 3, 3)) - nef.box((1, 1, 1), (2, 2, 2)).interior()
+        >>> stuck = {"shell": shell, "core": nef.box((1, 1, 1), (2, 2, 2))}
+        >>> text = planner.prove_inseparable(stuck)
+        >>> planner.complaint_about_inseparable(stuck, text) is None
+        True
+    """
+    names, sets = parts_of(parts)
+    text = _planner.prove_inseparable(names, sets)
+    if text is None:
+        raise InputError("some of these parts can begin to move; only parts that cannot move have a proof")
+    return text
+
+
+def complaint_about_inseparable(parts: Parts, text: str) -> Optional[str]:
+    """What is wrong with the text of such a proof, by itself or as one about these parts; None if it is valid."""
+    return _planner.complaint_about_inseparable(*parts_of(parts), text)

@@ -21,7 +21,8 @@ import numpy
 
 from . import _planner
 from ._nef import Polyhedron
-from .assemblies import (Disassembly, DisassemblyStep, FreeDirections, Inseparable, Undecided, disassemble, free_directions)
+from .assemblies import (Disassembly, DisassemblyStep, FreeDirections, Inseparable, Undecided, disassemble, free_directions,
+                         prove_inseparable, complaint_about_inseparable)
 from .errors import Error, InputError, InputWarning
 from .mechanisms import (CheckedMotion, Hinge, Joint, Linkage, Overlap, PairVerdict, PartVerdict, RangeEnd, RangePart, Screw, Slider,
                          Stop, Verdict, range_of_motion, reads_urdf, verdict)
@@ -31,8 +32,8 @@ Exact3 = Tuple[Fraction, Fraction, Fraction]
 __all__ = ["Cell", "CertifiedPath", "CheckedMotion", "CollidingPose", "Component", "Disassembly", "DisassemblyStep",
            "FreeDirections", "Hinge", "Inseparable", "Joint", "Linkage", "Overlap", "PairVerdict",
            "PartVerdict", "Plan", "Proof", "RangeEnd", "RangePart", "Rotation", "Scene", "Screw", "Slider", "Stop", "Thinness",
-           "TightPassage", "TurningProof", "Undecided", "Verdict", "Widest", "disassemble", "free_directions", "range_of_motion", "read",
-           "reads_urdf", "verdict"]
+           "TightPassage", "TurningProof", "Undecided", "Verdict", "Widest", "complaint_about_inseparable", "disassemble",
+           "free_directions", "prove_inseparable", "range_of_motion", "read", "reads_urdf", "verdict"]
 
 
 class Cell(NamedTuple):
@@ -420,18 +421,56 @@ class Scene:
             >>> scene.certify(turn).collision.motion
             0
         """
-        if isinstance(path, (str, os.PathLike)):
-            poses = _planner.read_poses(os.fspath(path))
-            if poses is None:
-                raise InputError(f"{os.fspath(path)}: no pose is turned: use check()")
-        elif isinstance(path, Plan):
-            if path.waypoints is None:
-                raise Error(f"there is no path: {path.status}")
-            turns = path.turns or [(1, 0, 0, 0)] * len(path.waypoints)
-            poses = list(zip(path.waypoints, turns))
-        else:
-            poses = [_pose(pose) for pose in path]
-        return CertifiedPath(*self._scene.certify(poses))
+        return CertifiedPath(*self._scene.certify(_poses_of(path)))
+
+    def prove(self, path: Any = None, *, start: Any = None, goal: Any = None) -> str:
+        """A proof that others can check, as the text of a .proof file (`planner --proof`): of a path, that none of its poses
+        collides or one does; without a path, that there is one from start to goal by translation, or none.
+
+        - path: as in certify()
+        - start, goal: three numbers each; those of the scene's file if None
+
+        Write the text to a file, and `python/proofs/check.py FILE` checks it with Python's standard library alone. Raises
+        InputError if there is no proof.
+
+            >>> import json, nef
+            >>> from nef import planner
+            >>> wall = nef.box((4, 0, 0), (5, 9, 9))
+            >>> scene = planner.Scene(nef.box((0, 0, 0), (1, 1, 1)), [wall], box=((0, 0, 0), (8, 8, 8)))
+            >>> text = scene.prove(start=(1, 1, 1), goal=(7, 7, 7))
+            >>> json.loads(text)["claim"]["status"], scene.complaint(text)
+            ('infeasible', None)
+        """
+        if path is not None:
+            if start is not None or goal is not None:
+                raise InputError("a proof is about a path or about a start and a goal, not both")
+            text = self._scene.prove_path(_poses_of(path))
+            if text is None:
+                raise InputError("the path is undecided, so there is no proof")
+            return text
+        scene = self._scene.with_ends(start, goal)
+        if scene.start is None or scene.goal is None:
+            raise InputError("a proof needs a path, or a start and a goal")
+        return self.build()._space.prove(scene.start, scene.goal)
+
+    def complaint(self, text: str) -> Optional[str]:
+        """What is wrong with the text of a .proof file, by itself or as one about this scene; None if it is valid. The check
+        uses nothing of the search (`planner --check-proof`)."""
+        return self._scene.complaint(text)
+
+
+def _poses_of(path):
+    """(position, quaternion) for each pose of a list, a Plan or a file."""
+    if isinstance(path, (str, os.PathLike)):
+        poses = _planner.read_poses(os.fspath(path))
+        if poses is None:
+            raise InputError(f"{os.fspath(path)}: no pose is turned: use check()")
+        return poses
+    if isinstance(path, Plan):
+        if path.waypoints is None:
+            raise Error(f"there is no path: {path.status}")
+        return list(zip(path.waypoints, path.turns or [(1, 0, 0, 0)] * len(path.waypoints)))
+    return [_pose(pose) for pose in path]
 
 
 def _pose(pose):

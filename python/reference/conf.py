@@ -11,5 +11,5 @@ autodoc_member_order = "bysource"
 autodoc_default_options = {"members": True, "undoc-members": False}
 napoleon_google_docstring = False
 # Applications whose libraries were missing at the build are documented all the same.
-autodoc_mock_imports = [f"nef._{name}" for name in ("minkowski", "planner", "visual_hull")
+autodoc_mock_imports = [f"nef._{name}" for name in ("minkowski", "planner", "remeshing", "visual_hull")
                         if importlib.util.find_spec(f"nef._{name}") is None]

@@ -105,3 +105,18 @@ def test_wrong_types_say_what_to_write(needs):
         planner.range_of_motion(a, a, planner.Hinge())
     with pytest.raises(TypeError, match=r"write \[obstacle\] for one"):
         planner.Linkage().check([], [], a)
+
+
+def test_proofs_of_parts_that_cannot_move(needs):
+    planner = needs("planner")
+    shell = nef.box((0, 0, 0), (3, 3, 3)) - nef.box((1, 1, 1), (2, 2, 2)).interior()
+    core = nef.box((1, 1, 1), (2, 2, 2))
+    stuck = {"shell": shell, "core": core}
+    text = planner.prove_inseparable(stuck)
+    assert planner.complaint_about_inseparable(stuck, text) is None
+    assert planner.complaint_about_inseparable({"shell": shell, "core": nef.box((1, 1, 1), ("3/2", 2, 2))}, text)
+    assert planner.complaint_about_inseparable({"shell": shell, "heart": core}, text)
+    with pytest.raises(nef.InputError, match="can begin to move"):
+        planner.prove_inseparable({"shell": shell, "core": nef.box((1, 1, 1), ("3/2", 2, 2))})
+    with pytest.raises(nef.InputError):
+        planner.complaint_about_inseparable(stuck, "{}")

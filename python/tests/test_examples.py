@@ -42,7 +42,7 @@ def test_notebook(path, needs):
             show(run_cell("".join(cell["source"]), names, f"{path.name}, cell {number}"))
 
 
-@pytest.mark.parametrize("name", ["nef", "minkowski", "planner"])
+@pytest.mark.parametrize("name", ["nef", "minkowski", "planner", "remeshing"])
 def test_docstrings(name, needs):
     module = needs(name)
     failed, tried = doctest.testmod(module)

@@ -50,9 +50,9 @@ NEF = {
     "--glued": "nef.TiledPolyhedron.polyhedron()",
     "--fill-holes": "nef.repair(fill_holes)",
     "--record": "the field `faces` of what nef.repair returns",
-    "--triangles": "meshes are decimated by the program only, as packages for meshes are at hand in Python",
-    "--times": "meshes are subdivided by the program only, as packages for meshes are at hand in Python",
-    "--scheme": "meshes are subdivided by the program only, as packages for meshes are at hand in Python",
+    "--triangles": "nef.remeshing.decimate(triangles)",
+    "--times": "nef.remeshing.subdivide(times)",
+    "--scheme": "nef.remeshing.subdivide(scheme)",
     "--plane": "nef.Polyhedron.section(normal)",
     "--volumes": "nef.Polyhedron.split(by)",
     "--above": "nef.Polyhedron.split(above)",
@@ -123,8 +123,8 @@ PROGRAMS = {
         "--clearance": "nef.planner.Scene.plan(clearance)",
         "--se3": "about the program's files",
         "--max-cells": "nef.planner.Scene.plan(max_cells)",
-        "--proof": "files of proofs are the program's; Plan.proof is the proof in Python",
-        "--check-proof": "nef.planner.TurningProof.complaint()",
+        "--proof": "nef.planner.Scene.prove(path)",
+        "--check-proof": "nef.planner.Scene.complaint(text)",
         "--widest": "nef.planner.Scene.widest(growth)",
         "--widest-box": "nef.planner.Scene.widest(growth)",
         "--precision": "nef.planner.Scene.widest(precision)",
@@ -160,7 +160,7 @@ PROGRAMS = {
         "--simplify": "nef.visual_hull.compute(tolerance)",
         "--outer": "nef.visual_hull.compute(outer)",
         "--box": "nef.visual_hull.compute(box)",
-        "--decimate": "meshes are decimated by the program only, as packages for meshes are at hand in Python",
+        "--decimate": "nef.remeshing.decimate(triangles)",
         "--color": "colours of vertices are the program's",
         "--verify": "nef.visual_hull.compute(verify)",
         "--way": "nef.visual_hull.read(way)",
@@ -226,7 +226,7 @@ def test_arguments_exist(program, needs):
             continue
         path, argument = match.groups()
         owner = importlib.import_module("nef")
-        if path.split(".")[0] in ("minkowski", "planner", "visual_hull"):
+        if path.split(".")[0] in ("minkowski", "planner", "remeshing", "visual_hull"):
             needs(path.split(".")[0])
         for name in path.split("."):
             owner = getattr(owner, name)

@@ -20,7 +20,7 @@ def in_new_python(code):
     return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.strip()
 
 
-@pytest.mark.parametrize("name", ["minkowski", "planner", "visual_hull"])
+@pytest.mark.parametrize("name", ["minkowski", "planner", "remeshing", "visual_hull"])
 def test_applications_load_on_first_use(name, needs):
     needs(name)
     assert in_new_python(f"import nef, sys; print('nef.{name}' in sys.modules, nef.{name}.__name__)") == f"False nef.{name}"
@@ -66,7 +66,7 @@ def test_an_import_loads_little():
 
 
 def test_version():
-    version = re.search(r"project\(nef_suite VERSION ([\d.]+)", (SOURCE / "CMakeLists.txt").read_text()).group(1)
+    version = re.search('define NEF_VERSION "(.*)"', (SOURCE / "nef" / "version.h").read_text()).group(1)
     assert nef.__version__ == version
 
 

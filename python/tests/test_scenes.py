@@ -6,6 +6,7 @@ import os
 import pathlib
 import random
 import subprocess
+import sys
 import warnings
 from fractions import Fraction
 
@@ -247,3 +248,38 @@ def test_certified_paths_are_those_of_the_program(needs, tmp_path):
     for bad in ([], [((0, 0, 0), (0, 0, 0, 0))], [((0, 0, 0), (1, 0, 0))]):
         with pytest.raises((ValueError, nef.InputError)):
             scene.certify(bad)
+
+
+def replayed(text, folder):
+    """The exit code of python/proofs/check.py, which shares nothing with the package."""
+    file = folder / "a.proof"
+    file.write_text(text)
+    checker = pathlib.Path(__file__).resolve().parents[1] / "proofs" / "check.py"
+    return subprocess.run([sys.executable, str(checker), str(file)], capture_output=True, check=False).returncode
+
+
+def test_proofs(needs, tmp_path):
+    planner = needs("planner")
+    cube = nef.box((0, 0, 0), (1, 1, 1))
+    wall = nef.box((4, 0, 0), (5, 9, 9))
+    closed = planner.Scene(cube, [wall], box=((0, 0, 0), (8, 8, 8)))
+    text = closed.prove(start=(1, 1, 1), goal=(7, 7, 7))
+    assert json.loads(text)["claim"]["status"] == "infeasible"
+    assert closed.complaint(text) is None and replayed(text, tmp_path) == 0
+    holed = planner.Scene(cube, [wall - nef.box((3, 3, 3), (6, 4, 4)).interior()], box=((0, 0, 0), (8, 8, 8)))
+    assert "obstacles" in holed.complaint(text)
+    path = holed.prove(start=(1, 1, 1), goal=(7, 7, 7))
+    assert json.loads(path)["claim"]["status"] == "path"
+    assert holed.complaint(path) is None and replayed(path, tmp_path) == 0
+    into = holed.prove([((1, 1, 1), (1, 0, 0, 0)), ((7, 7, 7), (1, 0, 0, 1))])
+    assert json.loads(into)["claim"]["status"] == "blocked"
+    assert holed.complaint(into) is None and replayed(into, tmp_path) == 0
+    tampered = path.replace('"allow"', '"forbid"')
+    assert tampered != path and holed.complaint(tampered) is not None and replayed(tampered, tmp_path) == 1
+    for wrong in ("", "{}", '{"claim": 1}'):
+        with pytest.raises(nef.InputError):
+            holed.complaint(wrong)
+    with pytest.raises(nef.InputError, match="start and a goal"):
+        holed.prove()
+    with pytest.raises(nef.InputError, match="not both"):
+        holed.prove([((1, 1, 1), (1, 0, 0, 0))], start=(1, 1, 1))

@@ -55,7 +55,7 @@ def test_stub(name, needs):
     assert set(stubs) - set(there) - skipped == set()
 
 
-@pytest.mark.parametrize("name", ["nef", "minkowski", "planner", "visual_hull"])
+@pytest.mark.parametrize("name", ["nef", "minkowski", "planner", "remeshing", "visual_hull"])
 def test_everything_public_is_documented(name, needs):
     module = needs(name)
     for key in module.__all__:
@@ -65,7 +65,7 @@ def test_everything_public_is_documented(name, needs):
             assert (value.__doc__ or "").strip(), key
 
 
-@pytest.mark.parametrize("name", ["nef", "minkowski", "planner", "visual_hull"])
+@pytest.mark.parametrize("name", ["nef", "minkowski", "planner", "remeshing", "visual_hull"])
 def test_public_functions_have_signatures(name, needs):
     module = needs(name)
     functions = [value for key, value in vars(module).items() if key in module.__all__ and callable(value)]

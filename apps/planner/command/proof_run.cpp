@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Proofs of translations are those of a rigid path whose poses are not turned: the path is certified anew, pair by
-// pair, and what was found must agree with the answer.
+// --proof and --check-proof for paths.
 #include "apps/planner/command/runs.h"
 
 #include <iostream>
 
 #include "apps/planner/command/findings.h"
+#include "apps/planner/proofs/answer_proof.h"
 #include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid/pose_file.h"
 #include "nef/base/error.h"
@@ -14,28 +14,6 @@
 
 namespace nef::planner {
 namespace {
-
-std::vector<RigidPose> poses_of(const std::vector<Rational3>& points) {
-  std::vector<RigidPose> poses;
-  for (const Rational3& point : points) poses.push_back({point, {1, 0, 0, 0}});
-  return poses;
-}
-
-// The path that an answer is about; no poses if the answer is about something else.
-std::vector<RigidPose> poses_about(const Scene& scene, const Answer& answer, const std::vector<RigidPose>& given) {
-  switch (answer.status) {
-    case Answer::Status::kPath:
-      return poses_of(answer.path->points);
-    case Answer::Status::kBlocked:
-      return given;
-    case Answer::Status::kInvalidStart:
-      return poses_of({*scene.start});
-    case Answer::Status::kInvalidGoal:
-      return poses_of({*scene.goal});
-    default:
-      return {};
-  }
-}
 
 bool same_poses(const std::vector<RigidPose>& a, const std::vector<RigidPose>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const RigidPose& p, const RigidPose& q) {
@@ -59,26 +37,13 @@ void write_path_proof(const Arguments& a, const MotionChecker& checker, const st
 void write_translation_proof(const Arguments& a, const Scene& scene, const FreeSpace* free, const Answer& answer,
                              const std::vector<RigidPose>& given) {
   if (a.proof.empty()) return;
-  if (answer.status == Answer::Status::kInfeasible) {
-    const std::optional<PathProof> proof = make_barrier_proof(scene, free->set(), *scene.start, *scene.goal);
-    if (!proof) {
-      throw InputError("--proof " + a.proof + ": no barrier of solid pieces separates start and goal by a distance");
-    }
-    write_file(a.proof, proof_text(*proof));
-    return;
+  std::string text;
+  try {
+    text = proof_text(proof_of_answer(scene, free, answer, given));
+  } catch (const InputError& error) {
+    throw InputError("--proof " + a.proof + ": " + error.what());
   }
-  const std::vector<RigidPose> poses = poses_about(scene, answer, given);
-  if (poses.empty()) throw InputError("--proof " + a.proof + ": the scene has no start and goal; add them");
-  const MotionChecker checker = MotionChecker::of_scene(scene);
-  CheckLimits limits;
-  limits.keep_parts = true;
-  const CertifiedPath known = certify(checker, poses, MotionTiming::kSlerp, limits);
-  const bool is_path = answer.status == Answer::Status::kPath;
-  if (known.status != (is_path ? MotionVerdict::Status::kFree : MotionVerdict::Status::kCollides)) {
-    throw InputError("--proof " + a.proof +
-                     ": robot and obstacles touch at a surface, and proofs cannot state contacts with surfaces");
-  }
-  write_path_proof(a, checker, poses, known);
+  write_file(a.proof, text);
 }
 
 int tell_check(const Arguments& a, const std::string& title, nlohmann::json found,

@@ -26,6 +26,7 @@
 #include "nef/io/content_hash.h"
 #include "nef/io/file_bytes.h"
 #include "nef/query/measures/approximate_volume.h"
+#include "nef/version.h"
 
 namespace nef::visual_hull {
 namespace fs = std::filesystem;

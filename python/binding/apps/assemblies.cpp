@@ -4,8 +4,11 @@
 // gives tuples, which Python makes into the public classes.
 #include <pybind11/stl.h>
 
+#include <numeric>
+
 #include "apps/planner/assembly/disassembly.h"
 #include "apps/planner/assembly/free_directions.h"
+#include "apps/planner/proofs/inseparable_proof.h"
 #include "binding/apps/planner.h"
 #include "binding/base/bindings.h"
 #include "nef/base/in_quotes.h"
@@ -94,11 +97,36 @@ py::tuple free_directions(const std::vector<std::string>& names, const std::vect
   return py::make_tuple(free.cone, free.dimension, free.everything, rays, stops_of(free.stops));
 }
 
+// The text of the proof that none of these parts can begin to move; None if some can.
+py::object prove_inseparable(const std::vector<std::string>& names, const std::vector<Polyhedron>& parts) {
+  const plan::Assembly assembly = assembly_of(names, parts);
+  const std::optional<plan::InseparableProof> proof = call(kSmallCall, [assembly](const Monitor& monitor) {
+    plan::PartSet all(assembly.parts.size());
+    std::iota(all.begin(), all.end(), 0);
+    return plan::make_inseparable_proof(closed(assembly, monitor), all, monitor);
+  });
+  return proof ? py::object(py::str(plan::proof_text(*proof))) : py::none();
+}
+
+// What is wrong with the text of such a proof, by itself and as one about these parts; None if it holds.
+py::object complaint_about_inseparable(const std::vector<std::string>& names, const std::vector<Polyhedron>& parts,
+                                       const std::string& text) {
+  const plan::InseparableProof proof = plan::parse_inseparable_proof(text, "the proof");
+  const plan::Assembly assembly = assembly_of(names, parts);
+  const std::optional<std::string> found = call(kSmallCall, [assembly, proof](const Monitor& monitor) {
+    const std::optional<std::string> complaint = plan::complaint_about(proof);
+    return complaint ? complaint : plan::complaint_about(proof, closed(assembly, monitor), monitor);
+  });
+  return found ? py::object(py::str(*found)) : py::none();
+}
+
 }  // namespace
 
 void bind_assemblies(py::module_& m) {
   m.def("take_apart", &take_apart);
   m.def("free_directions", &free_directions);
+  m.def("prove_inseparable", &prove_inseparable);
+  m.def("complaint_about_inseparable", &complaint_about_inseparable);
 }
 
 }  // namespace nef::python

@@ -6,6 +6,8 @@
 
 #include "apps/planner/clearance/widest_robot.h"
 #include "apps/planner/path/question.h"
+#include "apps/planner/proofs/answer_proof.h"
+#include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid/certified_path.h"
 #include "apps/planner/rigid/pose_file.h"
 #include "apps/planner/scene/scene.h"
@@ -189,8 +191,8 @@ py::object read_poses(const std::string& path) {
   return result;
 }
 
-// (status, collision, undecided motions, touching motions) of a path of ((x, y, z), (w, x, y, z)).
-py::tuple certify(const plan::Scene& scene, const py::sequence& path) {
+// Poses of a list of ((x, y, z), (w, x, y, z)).
+std::vector<plan::RigidPose> poses_of(const py::sequence& path) {
   std::vector<plan::RigidPose> poses;
   for (const py::handle item : path) {
     const auto pair = item.cast<py::sequence>();
@@ -202,6 +204,12 @@ py::tuple certify(const plan::Scene& scene, const py::sequence& path) {
     for (std::size_t k = 0; k < 4; ++k) pose.quaternion[k] = to_rational(quaternion[k]);
   }
   if (poses.empty()) throw InputError("a path needs a pose");
+  return poses;
+}
+
+// (status, collision, undecided motions, touching motions) of such a path.
+py::tuple certify(const plan::Scene& scene, const py::sequence& path) {
+  const std::vector<plan::RigidPose> poses = poses_of(path);
   const plan::CertifiedPath found = call(kSmallCall, [scene, poses](const Monitor& monitor) {
     const auto checker = plan::MotionChecker::of_scene(plan::with_robot_as_in_its_file(scene, monitor), monitor);
     return plan::certify(checker, poses);
@@ -217,6 +225,28 @@ py::tuple certify(const plan::Scene& scene, const py::sequence& path) {
                        : found.status == Status::kCollides ? "blocked"
                                                            : "undecided";
   return py::make_tuple(status, collision_of(found), undecided, touching);
+}
+
+// The text of the proof of what is known of such a path; None if that is undecided.
+py::object prove_path(const plan::Scene& scene, const py::sequence& path) {
+  const std::vector<plan::RigidPose> poses = poses_of(path);
+  const std::optional<plan::PathProof> proof = call(kSmallCall, [scene, poses](const Monitor& monitor) {
+    const auto checker = plan::MotionChecker::of_scene(plan::with_robot_as_in_its_file(scene, monitor), monitor);
+    plan::CheckLimits limits;
+    limits.keep_parts = true;
+    return plan::make_path_proof(checker, poses, plan::certify(checker, poses, plan::MotionTiming::kSlerp, limits));
+  });
+  return proof ? py::object(py::str(plan::proof_text(*proof))) : py::none();
+}
+
+// What is wrong with the text of a proof, by itself and as one about a scene; None if it holds.
+py::object complaint_about(const plan::Scene& scene, const std::string& text) {
+  const plan::PathProof proof = plan::parse_proof(text, "the proof");
+  const std::optional<std::string> found = call(kSmallCall, [scene, proof](const Monitor& monitor) {
+    const std::optional<std::string> complaint = plan::complaint_about(proof);
+    return complaint ? complaint : plan::complaint_about(proof.claim, scene, monitor);
+  });
+  return found ? py::object(py::str(*found)) : py::none();
 }
 
 // A problem whose free space is computed.
@@ -255,6 +285,18 @@ class Space {
         answer.status = plan::Answer::Status::kUndecided;
         return answer;
       }
+    }));
+  }
+
+  // The text of the proof that there is a path, or none, or that start or goal collides.
+  std::string prove(py::handle start, py::handle goal) const {
+    const Rational3 from = to_triple(start, "a start");
+    const Rational3 to = to_triple(goal, "a goal");
+    return plan::proof_text(call(kSmallCall, [=, problem = problem_](const Monitor& monitor) {
+      plan::Scene scene = problem->scene();
+      scene.start = from;
+      scene.goal = to;
+      return plan::proof_of_answer(scene, &problem->free_space(), problem->solve(from, to, {}, monitor), {}, monitor);
     }));
   }
 
@@ -355,6 +397,8 @@ void define_module(py::module_& m) {
       .def("widest", &widest)
       .def("invalid_end", &invalid_end)
       .def("certify", &certify)
+      .def("prove_path", &prove_path)
+      .def("complaint", &complaint_about)
       .def_property_readonly("start", [](const plan::Scene& s) { return optional_triple(s.start); })
       .def_property_readonly("goal", [](const plan::Scene& s) { return optional_triple(s.goal); });
   m.def("read", [](const std::string& path, const std::string& crossings, double close) {
@@ -374,6 +418,7 @@ void define_module(py::module_& m) {
       .def_property_readonly("built", &Space::built)
       .def("solve", &Space::solve)
       .def("check", &Space::check)
+      .def("prove", &Space::prove)
       .def("free", &Space::free)
       .def("passages", &Space::passages)
       .def("components", &Space::components);

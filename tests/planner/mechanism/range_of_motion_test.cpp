@@ -137,9 +137,9 @@ TEST_CASE("a corner that grazes a wall touches at one angle, and a key fits its 
   CHECK(touching == std::vector<double>{0, 180, 360});
 }
 
-TEST_CASE("balls of hundreds of faces: pole on pole, and each other's way", "[mechanism]") {
+TEST_CASE("balls of a hundred faces: pole on pole, and each other's way", "[mechanism]") {
   const auto ball_at = [](const Rational3& at) {
-    return transform(nef::test::ball(1, 20, 10), AffineMap::translate(at));
+    return transform(nef::test::ball(1, 12, 6), AffineMap::translate(at));
   };
   Mechanism m;
   m.name = "balls";

@@ -31,7 +31,7 @@ using testing::turntable_before;
 using testing::usual_lens;
 
 fs::path photograph(const Scratch& s, const std::string& name, const BoardStudio& studio, const BoardCamera& camera) {
-  const fs::path file = s.folder() / name;
+  fs::path file = s.folder() / name;
   REQUIRE(cv::imwrite(file.string(), studio.photograph(camera, std::hash<std::string>()(name)).picture));
   return file;
 }

@@ -10,6 +10,7 @@
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "apps/visual_hull/calibrate/board_sheet.h"
@@ -85,7 +86,7 @@ struct Photographed {
 class BoardStudio {
  public:
   explicit BoardStudio(const Board& board, std::optional<Egg> egg = {}, double torn = 0)
-      : board_(board), sheet_(board_picture(board, kPixels)), egg_(egg), torn_(torn) {}
+      : board_(board), sheet_(board_picture(board, kPixels)), egg_(std::move(egg)), torn_(torn) {}
 
   [[nodiscard]] Photographed photograph(const BoardCamera& camera, std::uint64_t seed, double noise = 3) const {
     const ImageSize size = *camera.lens.size;
@@ -102,7 +103,8 @@ class BoardStudio {
         std::array<double, 3> sum{};
         for (int k = 0; k < kSub * kSub; ++k) {
           const double dx = (k % kSub + 0.5) / kSub - 0.5;
-          const double dy = (k / kSub + 0.5) / kSub - 0.5;
+          const int line = k / kSub;
+          const double dy = (line + 0.5) / kSub - 0.5;
           const double u = row[2 * x] + dx * (row[2 * x + 2] - row[2 * x]) + dy * (below[2 * x] - row[2 * x]);
           const double v =
               row[2 * x + 1] + dx * (row[2 * x + 3] - row[2 * x + 1]) + dy * (below[2 * x + 1] - row[2 * x + 1]);

@@ -285,6 +285,26 @@ TEST_CASE("Both ways write the same hull, the direct one is refused where it can
   CHECK_THAT(refused.output, Contains("use --way cones"));
 }
 
+TEST_CASE("A box that cuts the hull, and views that the frame cuts: both ways write the same hull") {
+  const Scratch s;
+  const std::filesystem::path folder = s.folder() / "elk";
+  std::filesystem::copy(data("elk"), folder);
+  for (const char* name : {"elk_02.png", "elk_07.png"}) {
+    const cv::Mat mask = cv::imread((folder / name).string(), cv::IMREAD_GRAYSCALE);
+    REQUIRE(cv::imwrite((folder / name).string(), mask.colRange(0, mask.cols / 2)));
+  }
+  const std::string scene = (folder / "elk.json").string() + " --simplify 1 --border unknown --json";
+  const std::string cut = " --box=-100,-40,-200,200,50,20";  // the hull is from -51, -81, -102 to 99, 79, 55
+  for (const std::string& options : {std::string(), cut}) {
+    INFO(options);
+    const std::string direct = (s.folder() / "direct.nef").string();
+    const std::string cones = (s.folder() / "cones.nef").string();
+    REQUIRE(run(scene + options + " --way direct -o " + direct).code == 0);
+    REQUIRE(run(scene + options + " --way cones -o " + cones).code == 0);
+    CHECK(nef::equal(nef::read_polyhedron(direct), nef::read_polyhedron(cones)));
+  }
+}
+
 TEST_CASE("A check says what is understood and computes nothing") {
   const Outcome check = run(data("elk/elk.json") + " --check");
   CHECK(check.code == 0);

@@ -58,23 +58,32 @@ struct Saddle {
   Direction turned_middle;
 };
 
+using Directions = std::vector<Direction>;
+
+// Of the svertices of a map, in their order.
+Directions directions_of(const Complex& c, const SphereMapView& map) {
+  Directions result;
+  for (const SVertex& s : map.svertices) result.push_back(direction_of(c.planes, s));
+  return result;
+}
+
 // Around an edge with one wedge: 1 if that is convex, -1 if it is reflex, 0 if it is flat.
-int bend(const Complex& c, const SphereMapView& map, std::uint32_t svertex, const Monitor& monitor) {
-  const Direction line = direction_of(c.planes, map.svertices[svertex]);
+int bend(const Complex& c, const SphereMapView& map, std::uint32_t svertex, const Direction& line,
+         const Monitor& monitor) {
   std::uint32_t e = map.svertices[svertex].out;
   while (map.sfaces[map.shalfedges[e].sface].mark != 0) e = map.next_around(e);
   return -orientation_around(c.planes, line, map.shalfedges[e].plane, map.shalfedges[map.next_around(e)].plane,
                              monitor);
 }
 
-bool is_saddle(const Complex& c, const SphereMapView& map, const Monitor& monitor) {
+bool is_saddle(const Complex& c, const SphereMapView& map, const Directions& edges, const Monitor& monitor) {
   const auto solid = std::count_if(map.sfaces.begin(), map.sfaces.end(), [](const SFace& f) { return f.mark != 0; });
   const auto free = static_cast<std::ptrdiff_t>(map.sfaces.size()) - solid;
   if (solid > 1 || free > 1) return true;
   bool convex = false;
   bool reflex = false;
   for (std::uint32_t s = 0; s < map.svertices.size(); ++s) {
-    const int b = bend(c, map, s, monitor);
+    const int b = bend(c, map, s, edges[s], monitor);
     convex = convex || b > 0;
     reflex = reflex || b < 0;
   }
@@ -83,16 +92,15 @@ bool is_saddle(const Complex& c, const SphereMapView& map, const Monitor& monito
 
 // The hull of the edges, if the solid is in it: nothing else can be, if all arcs are short and what is opposite is
 // free.
-void find_hull(const Complex& c, const SphereMapView& map, Saddle& saddle, const Monitor& monitor) {
-  std::vector<Direction> edges;
+void find_hull(const Complex& c, const SphereMapView& map, const Directions& edges, Saddle& saddle,
+               const Monitor& monitor) {
   Integer3 sum;
-  for (const SVertex& s : map.svertices) {
-    edges.push_back(direction_of(c.planes, s));
-    for (std::size_t i = 0; i < 3; ++i) sum[i] += edges.back().integers()[i];
+  for (const Direction& edge : edges) {
+    for (std::size_t i = 0; i < 3; ++i) sum[i] += edge.integers()[i];
   }
   for (std::uint32_t e = 0; e < map.shalfedges.size(); e += 2) {
-    const Direction from = direction_of(c.planes, map.svertices[map.shalfedges[e].source]);
-    const Direction to = direction_of(c.planes, map.svertices[map.target(e)]);
+    const Direction& from = edges[map.shalfedges[e].source];
+    const Direction& to = edges[map.target(e)];
     if (orientation_on_circle(c.planes, map.shalfedges[e].plane, from, to, monitor) <= 0) return;
   }
   std::vector<Direction> normals;
@@ -136,7 +144,8 @@ std::vector<Saddle> saddles(const Complex& c, const Monitor& monitor) {
   std::vector<Saddle> result;
   for (const VertexId v : c.vertex_ids()) {
     const SphereMapView map = c.sphere_map(v);
-    if (!is_saddle(c, map, monitor)) continue;
+    const Directions edges = directions_of(c, map);
+    if (!is_saddle(c, map, edges, monitor)) continue;
     Saddle saddle;
     saddle.vertex = v;
     const Rational3 at = c.points.rational(point_of(v));
@@ -145,8 +154,8 @@ std::vector<Saddle> saddles(const Complex& c, const Monitor& monitor) {
     for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
       if (map.sfaces[map.shalfedges[e].sface].mark == 0) continue;
       saddle.into.push_back(direction_into(c.planes, map, map.shalfedges[e].sface, e, monitor));
-      const Direction from = direction_of(c.planes, map.svertices[map.shalfedges[e].source]);
-      const Direction to = direction_of(c.planes, map.svertices[map.target(e)]);
+      const Direction& from = edges[map.shalfedges[e].source];
+      const Direction& to = edges[map.target(e)];
       const Direction normal = Direction::normal(c.planes, map.shalfedges[e].plane);
       saddle.into.push_back(from);
       const int turn = orientation_on_circle(c.planes, map.shalfedges[e].plane, from, to, monitor);
@@ -155,7 +164,7 @@ std::vector<Saddle> saddles(const Complex& c, const Monitor& monitor) {
     }
     for (const Direction& d : saddle.into) saddle.back.push_back(d.negated());
     find_near_arcs(saddle);
-    find_hull(c, map, saddle, monitor);
+    find_hull(c, map, edges, saddle, monitor);
     result.push_back(std::move(saddle));
   }
   return result;

@@ -55,7 +55,7 @@ _OF_MODULE = {
     "union": "a | b, or unite_all", "intersection": "a & b, or intersect_all", "difference": "a - b",
     "symmetric_difference": "a ^ b", "complement": "~a", "cube": "box", "load": "read", "Box": "box", "Sphere": "sphere",
     "convex_hull": "hull", "minkowski_sum": "minkowski.sum", "offset": "minkowski.offset",
-    "decimate": "the program `nef decimate`", "simplify": "the program `nef decimate`",
+    "decimate": "nef.remeshing.decimate", "simplify": "nef.remeshing.decimate", "subdivide": "nef.remeshing.subdivide",
 }
 _OF_SET = {
     "union": "a | b", "intersection": "a & b", "difference": "a - b", "symmetric_difference": "a ^ b", "complement": "~a",
@@ -63,7 +63,7 @@ _OF_SET = {
     "vertices": "to_mesh, which returns vertices and faces", "faces": "to_mesh, which returns vertices and faces",
     "save": "write", "export": "write", "hull": "nef.minkowski.hull", "convex_hull": "nef.minkowski.hull",
     "offset": "nef.minkowski.offset", "minkowski_sum": "nef.minkowski.sum",
-    "decimate": "the program `nef decimate`", "simplify": "the program `nef decimate`",
+    "decimate": "nef.remeshing.decimate", "simplify": "nef.remeshing.decimate", "subdivide": "nef.remeshing.subdivide",
 }
 
 

@@ -117,9 +117,9 @@ def _repr(self):
         return "<nef.Polyhedron: the empty set>"
     if self.is_everything():
         return "<nef.Polyhedron: all of space>"
-    n = self.counts()
-    return (f"<nef.Polyhedron: {n.vertices} vertices, {n.edges} edges, {n.facets} facets, {n.volumes} volumes, "
-            f"{n.shells} shells>")
+    nouns = (("vertex", "vertices"), ("edge", "edges"), ("facet", "facets"), ("volume", "volumes"), ("shell", "shells"))
+    counts = ", ".join(f"{count} {nouns[i][count != 1]}" for i, count in enumerate(self.counts()))
+    return f"<nef.Polyhedron: {counts}>"
 
 
 def _missing(self, name):

@@ -17,6 +17,7 @@
 #include "apps/planner/turning/turning_robot.h"
 #include "apps/program/exact_json.h"
 #include "apps/program/json_reader.h"
+#include "nef/base/counted.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/time_limit.h"
 #include "nef/io/file_bytes.h"
@@ -137,7 +138,7 @@ std::array<double, 4> quaternion_of(double degrees, const TurningAxis& axis) {
 
 void print(const Arguments& a, const TurningAnswer& answer, const TurningAxis& axis) {
   std::cout << status_name(answer.status);
-  if (a.ompl.empty()) std::cout << ", " << answer.cells << " cells of angles";
+  if (a.ompl.empty()) std::cout << ", " << counted(answer.cells, "cell", "cells") << " of angles";
   if (answer.status == TurningAnswer::Status::kUndecided) {
     std::cout << "; open:";
     for (const TurnRange& range : answer.open_ranges) {
@@ -155,7 +156,7 @@ int check_proof(const Arguments& a, const Scene& scene) {
   const std::optional<std::string> complaint = complaint_about(proof, scene, question_of(scene));
   const std::size_t cells = proof.cells.size();
   return tell_check(a, scene.name, {{"scene", scene.name}, {"cells", cells}}, complaint,
-                    ", " + std::to_string(cells) + " cells of angles", watch);
+                    ", " + counted(cells, "cell", "cells") + " of angles", watch);
 }
 
 }  // namespace

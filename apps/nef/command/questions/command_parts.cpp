@@ -10,6 +10,7 @@
 #include "apps/nef/command/commands.h"
 #include "apps/nef/command/questions/section_drawing.h"
 #include "apps/program/numbers.h"
+#include "nef/base/counted.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/base/word_list.h"
@@ -67,8 +68,9 @@ void run_section(Session& session, const std::string& plane) {
     object["area"] = section_area(cut);
     return session.print("section", object);
   }
-  session.say(std::to_string(cut.polygons.size()) + " polygons, " + std::to_string(cut.segments.size()) +
-              " segments, " + std::to_string(cut.points.size()) + " points; area " + Json(section_area(cut)).dump());
+  session.say(counted(cut.polygons.size(), "polygon", "polygons") + ", " +
+              counted(cut.segments.size(), "segment", "segments") + ", " +
+              counted(cut.points.size(), "point", "points") + "; area " + Json(section_area(cut)).dump());
 }
 
 std::string left_out_text(std::size_t left_out, std::size_t all) {

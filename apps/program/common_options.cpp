@@ -80,8 +80,8 @@ void add_manifold_option(CLI::App& app, bool& manifold) {
 
 void add_mesh_file_options(CLI::App& app, MeshFileFlags& flags) {
   app.add_flag("--recenter", flags.recenter,
-               "Subtract the centre of the mesh from its coordinates, which keeps more digits far from the origin; the "
-               "report and the file contain the offset");
+               "Subtract a point of few digits near the centre of the mesh from its coordinates, which keeps more "
+               "digits far from the origin; the report and the file contain the offset");
   app.add_flag(
       "--lenient", flags.lenient,
       "Write a mesh even if rounding made it invalid and it could not be repaired (an error without this flag)");

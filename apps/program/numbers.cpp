@@ -22,8 +22,10 @@ std::vector<Rational> parse_numbers(std::string_view text, const std::string& wh
     while (end < text.size() && text[end] != ',' && !is_space(text[end])) ++end;
     const std::string_view word = text.substr(at, end - at);
     std::optional<Rational> number = try_parse_rational(word);
-    if (!number)
-      throw InputError(what + ": '" + std::string(word) + "' in '" + std::string(text) + "' is not a number");
+    if (!number) {
+      const std::string within = word == text ? "" : " in '" + std::string(text) + "'";
+      throw InputError(what + ": '" + std::string(word) + "'" + within + " is not a number");
+    }
     result.push_back(*std::move(number));
     while (end < text.size() && is_space(text[end])) ++end;
     // A comma promises another number.

@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// The frame of all programs: what a command line lacks, what an exception says, and the exit code.
+//
+// A word that is no subcommand or option is looked up among the names that other programs use, then among those that
+// are spelled almost alike. Every error becomes one line on standard error.
 #include "apps/program/run_program.h"
 
+#include <algorithm>
+#include <array>
 #include <iostream>
 #include <new>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "apps/program/nearest_word.h"
 #include "apps/program/stack.h"
@@ -56,19 +64,45 @@ std::vector<std::string> option_names(const CLI::App& app) {
   return names;
 }
 
+// What other programs call these subcommands.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 20> kOtherNames{{
+    {"add", "union"},         {"combine", "union"},    {"cut", "difference"},      {"diff", "difference"},
+    {"evaluate", "eval"},     {"export", "convert"},   {"fix", "repair"},          {"intersect", "intersection"},
+    {"merge", "union"},       {"mirror", "transform"}, {"move", "transform"},      {"reduce", "decimate"},
+    {"render", "picture"},    {"rotate", "transform"}, {"scale", "transform"},     {"show", "view"},
+    {"simplify", "decimate"}, {"slice", "section"},    {"subtract", "difference"}, {"translate", "transform"},
+}};
+
+std::string suggested_subcommand(const CLI::App& app, const std::string& word) {
+  const std::vector<std::string> names = subcommand_names(app);
+  for (const auto& [other, name] : kOtherNames) {
+    if (word != other || std::find(names.begin(), names.end(), name) == names.end()) continue;
+    return "; did you mean '" + std::string(name) + "'?";
+  }
+  return did_you_mean(word, names);
+}
+
 // What is wrong with a command line. An option that does not exist comes first: what is missing beside it may be what
 // it was meant for.
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<std::string> left = app.remaining(true);
   const bool lacks_command = !subcommand_names(app).empty() && app.get_subcommands().empty();
   if (lacks_command && !left.empty() && left.front().front() != '-') {
-    return "there is no subcommand '" + left.front() + "'" + did_you_mean(left.front(), subcommand_names(app));
+    return "there is no subcommand '" + left.front() + "'" + suggested_subcommand(app, left.front());
   }
   for (const std::string& word : left) {
     // After "--" nothing is an option.
     if (word == "--") break;
     if (word.size() < 2 || word.front() != '-') continue;
     return "there is no option '" + word + "'" + did_you_mean(word.substr(0, word.find('=')), option_names(app));
+  }
+  const bool is_extra = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+  const bool is_missing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
+  if (!left.empty() && (is_extra || is_missing)) {
+    const std::vector<std::string> options = option_names(app);
+    const bool writes = std::find(options.begin(), options.end(), "--output") != options.end();
+    return (is_missing ? std::string(error.what()) + "; " : "") + "unexpected argument '" + left.front() + "'" +
+           (writes ? "; an output file is named with -o" : "");
   }
   return error.what();
 }

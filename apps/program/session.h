@@ -48,7 +48,7 @@ class Session {
   std::vector<std::string> inputs;  ///< of others
   int repeat = 1;
 
-  Monitor monitor = Monitor().on_threads(0);  ///< who watches the run; --threads is in it
+  Monitor monitor = Monitor().on_threads(0);  ///< of the run; contains --threads
   int exit_code = kYes;
 
   /// Reads a set; its time is added to the phase "load", notes go to stderr unless quiet.

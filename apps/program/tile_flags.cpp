@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <limits>
 
+#include "nef/base/counted.h"
 #include "nef/base/error.h"
 #include "nef/base/in_quotes.h"
 #include "nef/base/timing/stopwatch.h"
@@ -147,8 +148,8 @@ void finish_tiled(Session& session, const std::string& command, const TiledPolyh
   write_tiles(session.output, set);
   const double write_seconds = watch.seconds();
   if (!session.json) {
-    return session.say(std::to_string(set.tile_count()) + " tiles, " + std::to_string(set.vertex_count()) +
-                       " vertices in them");
+    return session.say(counted(set.tile_count(), "tile, ", "tiles, ") +
+                       counted(set.vertex_count(), "vertex in them", "vertices in them"));
   }
   Json found = more;
   found["result"] = {{"tiles", set.tile_count()}, {"vertices_in_tiles", set.vertex_count()}};

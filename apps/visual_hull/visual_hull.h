@@ -70,7 +70,7 @@ struct Options {
   std::optional<std::size_t> at_least;  ///< the points in at least so many silhouettes, instead of in all
   bool largest = false;                 ///< keep the piece of the largest volume only: Result::pieces
   bool verify = false;
-  nef::Monitor monitor = {};  ///< who watches compute; what it refers to must outlive the call
+  nef::Monitor monitor = {};  ///< cancellation, progress, counters; its referents must outlive compute
 };
 
 /// What one view has come to.

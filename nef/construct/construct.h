@@ -49,7 +49,7 @@ struct MeshOptions {
   double close_percent = 0;  ///< above 0: a mesh that bounds no solid is repaired like by repair_mesh, and its holes
                              ///< are closed by lids of at most this share in the area of the mesh with them, a guess
                              ///< that is noted like all that was done
-  Monitor monitor = {};      ///< who watches; what it refers to must outlive the call
+  Monitor monitor = {};      ///< cancellation, progress, counters; its referents must outlive the call
 };
 
 /// Notes about what was done to the input (faces that were triangulated).

@@ -312,7 +312,7 @@ std::vector<std::string> file_extensions() {
 }
 
 std::string offset_note(const std::string& path, const Rational3& offset) {
-  std::string text = "the mesh in " + path + " is centred at the origin; subtracted from its coordinates:";
+  std::string text = "the mesh in " + path + " was moved near the origin; subtracted from its coordinates:";
   for (const Rational& x : offset) text += " " + x.get_str();
   return text;
 }

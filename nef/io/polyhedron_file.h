@@ -24,7 +24,7 @@ namespace nef {
 /// itself) with the path in front of the text.
 Polyhedron read_polyhedron(const std::string& path, const MeshOptions& options = {}, Messages* messages = nullptr);
 
-/// All extensions that are read and written: nef and nef3, which hold sets as they are, and those of meshes.
+/// All extensions that are read and written: nef and nef3, which store sets as they are, and those of meshes.
 std::vector<std::string> file_extensions();
 /// True for nef and nef3.
 bool is_set_extension(std::string_view extension);
@@ -37,14 +37,14 @@ struct PolyhedronWriteOptions {
   bool manifold = false;  ///< in mesh files each edge has two faces (separate_sheets; not in STL, and
                           ///< not together with groups)
   bool lenient = false;   ///< write a mesh even if it is known not to be strictly legal
-  bool recenter = false;  ///< subtract the middle of the mesh from its coordinates, so that few digits are lost
+  bool recenter = false;  ///< subtract middle_of_few_digits from the coordinates, so that few digits are lost
   /// Red, green and blue for the vertices of the mesh that goes to a file; PLY and GLB only.
   std::function<std::vector<std::array<std::uint8_t, 3>>(const Mesh&)> vertex_colors = {};
   std::string format = {};  ///< instead of the extension of the path, which may be none
-  Monitor monitor = {};     ///< who watches; what it refers to must outlive the call
+  Monitor monitor = {};     ///< cancellation, progress, counters; its referents must outlive the call
 };
 
-/// What is to be known of a file that was written.
+/// Properties of a file that was written.
 struct WrittenFile {
   /// Why its mesh is not strictly legal (is_strictly_legal); empty if it is, or the format is not one of meshes. Only
   /// if the options are lenient.
@@ -57,12 +57,12 @@ struct WrittenFile {
 /// A note that the coordinates in a file are not those of the set.
 std::string offset_note(const std::string& path, const Rational3& offset);
 
-/// Writes a polyhedron; the file gets its name when it is whole. "-" is standard output. Mesh formats hold the boundary
+/// Writes a polyhedron to a temporary file, renamed on success. "-" is standard output. Mesh formats store the boundary
 /// of the bounded solid parts: convex faces of four corners as they are where rounding leaves them planar, all others
 /// as triangles. Coordinates are rounded to the nearest numbers of the format; if the result is not strictly legal
 /// (is_strictly_legal) it is repaired by going to other numbers nearby. Sets without solid parts are written as
 /// surfaces, and to OBJ as lines and points, if their vertices stay apart. `messages` gets a line for what was repaired
-/// and for everything that the file does not hold. Throws FileError for an unknown extension or a file that cannot be
+/// and for everything that the file cannot store. Throws FileError for an unknown extension or a file that cannot be
 /// written, and UnsupportedError for an unbounded set in .nef3 or a mesh that cannot be repaired, unless the options
 /// are lenient; then no file is written.
 WrittenFile write_polyhedron(const std::string& path, const Polyhedron& polyhedron,
@@ -81,8 +81,8 @@ struct BoundaryGroups {
   std::function<std::string(LabelId inside, LabelId outside, LabelId facet)> name;
 };
 
-/// Writes the points with selected marks like write_polyhedron, to a mesh format, and tells from face to face which
-/// group it belongs to (see MeshWriteOptions; a message where the format has no groups). Groups are numbered in the
+/// Writes the points with selected marks like write_polyhedron, to a mesh format, and the group that each face
+/// belongs to (see MeshWriteOptions; a message where the format has no groups). Groups are numbered in the
 /// order of their names. Returns how many faces each has, by name. `written`: what write_polyhedron would return.
 std::map<std::string, std::size_t> write_groups(const std::string& path, const Polyhedron& labeled,
                                                 const BoundaryGroups& groups,

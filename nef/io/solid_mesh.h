@@ -12,9 +12,9 @@ namespace nef {
 struct SolidMeshOptions {
   bool polygons = false;  ///< keep polygons without holes (with `manifold`: strictly convex ones only)
   bool manifold = false;  ///< each edge has two faces (see separate_sheets)
-  bool recenter = false;  ///< subtract the middle of the mesh (see recenter)
+  bool recenter = false;  ///< subtract middle_of_few_digits (see recenter)
   bool repair = false;    ///< vertices are doubles, at which the mesh is strictly legal; they are exact otherwise
-  Monitor monitor = {};   ///< who watches
+  Monitor monitor = {};   ///< cancellation, progress, counters
 };
 
 /// What solid_mesh makes.

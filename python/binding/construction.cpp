@@ -67,7 +67,7 @@ Polyhedron hull(py::handle points) {
 
 Polyhedron polygon(const py::iterable& rings) {
   std::vector<std::vector<Rational3>> held;
-  for (const py::handle ring : rings) held.push_back(to_points(ring, "a ring"));
+  for (const py::handle ring : rings) held.push_back(to_points(ring, "each list in rings"));
   return make_polygon(held);
 }
 
@@ -216,8 +216,8 @@ points: an array of shape (N, 3) of floats, integers or Fractions, or a sequence
   m.def("polygon", &polygon, py::arg("rings"),
         R"(A closed planar polygon: outer rings and holes in one plane, in any order.
 
-rings: an iterable of arrays of shape (N, 3). Raises InputError if the points do not lie in one plane exactly, or a ring
-touches or crosses itself.)");
+rings: an iterable of arrays of shape (N, 3); write ``[ring]`` for a single one. Raises InputError if the points do not
+lie in one plane exactly, or a ring touches or crosses itself.)");
   m.def("_from_mesh", &solid_from_mesh, py::arg("vertices"), py::arg("faces"), py::arg("strict"), py::arg("surface"),
         py::arg("check"), py::arg("crossings"), py::arg("close"));
   m.def("_repair", &repaired, py::arg("vertices"), py::arg("faces"), py::arg("strict"), py::arg("fill_holes"),
@@ -252,7 +252,7 @@ corners: around, from 3 to 100000.)");
         R"(The set whose points carry the label function(label in a, label in b).
 
 Labels are ints from 0; an ordinary set has 1 where it is and 0 elsewhere. The function is called once for each pair of
-labels, also of such that meet nowhere.)");
+labels, also for pairs that occur nowhere.)");
 }
 
 }  // namespace nef::python

@@ -167,8 +167,8 @@ where they pass from one set to another.)");
 
 exact: exact coordinates in meshes (not STL). binary: binary STL or PLY. polygons: faces without holes stay polygons where
 rounding leaves them planar. manifold: where the solid touches itself, each sheet has vertices of its own (not in STL).
-recenter: subtract the middle of the mesh from its coordinates, and return it (three floats, exact); GLB and 3MF files put
-it back when they are read. lenient: write a mesh even if rounding made it illegal and it could not be repaired, and
+recenter: subtract a point of few digits near the middle of the mesh, and return it (three floats, exact); GLB and 3MF
+files put it back when they are read. lenient: write a mesh even if rounding made it illegal and it could not be repaired, and
 warn; otherwise that is an UnsupportedError. text: .nef as text. format: such as "off", instead of the extension. What a mesh cannot store is reported as InputWarning.)")
       .def("to_mesh", &mesh_of, py::arg("polygons") = false, py::arg("exact") = false, py::kw_only(),
            py::arg("manifold") = false, py::arg("recenter") = false, py::arg("repair") = false,
@@ -176,7 +176,7 @@ warn; otherwise that is an UnsupportedError. text: .nef as text. format: such as
 
 vertices: array of shape (N, 3) of floats, the nearest to the exact coordinates; of Fractions if `exact`. faces: int64
 array of shape (M, 3), counterclockwise as seen from outside; or, with `polygons`, a list of M arrays.
-manifold: where the solid touches itself, each sheet gets vertices of its own. recenter: subtract the middle of the mesh
+manifold: where the solid touches itself, each sheet gets vertices of its own. recenter: subtract a point near the middle
 from the vertices, and return it as a third value (floats that are exact; Fractions if `exact`). repair: move vertices to
 other floats nearby until no two triangles have anything in common but vertices and edges that they share, as `write`
 does; UnsupportedError if that fails. Without it rounding may flip slivers. What a mesh cannot store (open

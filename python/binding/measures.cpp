@@ -84,8 +84,7 @@ void bind_measures(py::module_& /*module*/, PolyhedronClass& c) {
        "volume",
        [](const Polyhedron& a) { return optional_fraction(call(items(a), [a](const Monitor&) { return volume(a); })); },
        "The volume, a Fraction; None if it is infinite. Its digits, and the time, grow with the set: "
-       "approximate_volume "
-       "takes little.")
+       "approximate_volume is fast.")
       .def(
           "surface_area",
           [](const Polyhedron& a) { return call(items(a), [a](const Monitor&) { return surface_area(a); }); },

@@ -135,9 +135,10 @@ void bind_operations(PolyhedronClass& c) {
       .def("__bool__", [](const Polyhedron& a) { return !a.is_empty(); })
       .def("__copy__", [](const Polyhedron& a) { return a; })
       .def("__deepcopy__", [](const Polyhedron& a, const py::dict&) { return a; })
-      .def("interior", unary(interior), "The largest open set within.")
-      .def("closure", unary(closure), "The smallest closed set around.")
-      .def("boundary", unary(boundary), "The points that both the set and its complement come near.")
+      .def("interior", unary(interior), "The largest open subset.")
+      .def("closure", unary(closure), "The smallest closed set that contains the set.")
+      .def("boundary", unary(boundary),
+           "The points of which every neighbourhood meets both the set and its complement.")
       .def("exterior", unary(exterior), "The interior of the complement.")
       .def("regularize", unary(regularize), "The closure of the interior.")
       .def(
@@ -162,9 +163,10 @@ Fractions as from floats. Raises InputError if the map is not invertible.)")
             return transformed(a, AffineMap::rotate(to_triple(axis, "an axis"), degrees, tolerance));
           },
           py::arg("axis"), py::arg("degrees"), py::arg("tolerance") = 1e-9,
-          R"(The set turned about an axis through the origin.
+          R"(The set turned about an axis through the origin, counterclockwise as seen from the tip of the axis.
 
-The map is exactly orthogonal and rational; its angle is within `tolerance` degrees of the one given.)")
+axis: three numbers, such as (0, 0, 1) for z. degrees: the angle. The map is exactly orthogonal and
+rational; its angle is within `tolerance` degrees of the one given.)")
       .def("split", &parts, py::arg("by") = "components", py::arg("above") = py::none(),
            R"(The pieces of the set, a list of Polyhedron.
 

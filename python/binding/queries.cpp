@@ -141,7 +141,13 @@ points: three numbers for one point, which gives a bool; or an array of shape (N
 which gives a bool array of shape (N,). threads: for arrays of floats; 0: as many as the machine has. Raises InputError
 for a coordinate that is not a finite number.)")
       .def(
-          "__contains__", [](const Polyhedron& a, py::handle p) { return contains(a, to_triple(p, "a point")); },
+          "__contains__",
+          [](const Polyhedron& a, py::handle p) {
+            if (py::isinstance<Polyhedron>(p)) {
+              throw InputError("a point needs three numbers; write b <= a for sets: whether b is a subset of a");
+            }
+            return contains(a, to_triple(p, "a point"));
+          },
           py::arg("point"))
       .def("labels_at", &labels_at, py::arg("points"), py::arg("threads") = 1,
            "The labels at points: as contains, with integers for bools.")
@@ -154,7 +160,8 @@ for a coordinate that is not a finite number.)")
            R"(The first vertex, edge or facet on the open ray from `origin` (excluded) in `direction` (not zero):
 nef.RayHit(point, location), the point in Fractions; or None.)")
       .def("section", &section_of, py::arg("normal"), py::arg("offset"), py::arg("exact") = false,
-           R"(The section with the plane of all points x with normal . x + offset = 0: nef.Section.
+           R"(The section with the plane of all points x with normal . x + offset = 0: nef.Section. The plane
+z = 1 is ``section((0, 0, 1), -1)``.
 
 Its `set` is exact; `polygons`, `segments` and `points` are the nearest doubles, or Fractions if `exact`. Raises
 InputError if the normal is zero.)")

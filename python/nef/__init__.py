@@ -50,9 +50,27 @@ if TYPE_CHECKING:
 _APPLICATIONS = ("minkowski", "planner", "remeshing", "visual_hull")
 
 
+# What other packages call what this one has.
+_OF_MODULE = {
+    "union": "a | b, or unite_all", "intersection": "a & b, or intersect_all", "difference": "a - b",
+    "symmetric_difference": "a ^ b", "complement": "~a", "cube": "box", "load": "read", "Box": "box", "Sphere": "sphere",
+    "convex_hull": "hull", "minkowski_sum": "minkowski.sum", "offset": "minkowski.offset",
+    "decimate": "nef.remeshing.decimate", "simplify": "nef.remeshing.decimate", "subdivide": "nef.remeshing.subdivide",
+}
+_OF_SET = {
+    "union": "a | b", "intersection": "a & b", "difference": "a - b", "symmetric_difference": "a ^ b", "complement": "~a",
+    "issubset": "a <= b", "issuperset": "a >= b", "area": "surface_area", "bounds": "bounding_box", "copy": "a itself: sets are immutable",
+    "vertices": "to_mesh, which returns vertices and faces", "faces": "to_mesh, which returns vertices and faces",
+    "save": "write", "export": "write", "hull": "nef.minkowski.hull", "convex_hull": "nef.minkowski.hull",
+    "offset": "nef.minkowski.offset", "minkowski_sum": "nef.minkowski.sum",
+    "decimate": "nef.remeshing.decimate", "simplify": "nef.remeshing.decimate", "subdivide": "nef.remeshing.subdivide",
+}
+
+
 def __getattr__(name):
     if name not in _APPLICATIONS:
-        raise AttributeError(f"module 'nef' has no attribute {name!r}")
+        hint = f"; use {_OF_MODULE[name]}" if name in _OF_MODULE else ""
+        raise AttributeError(f"module 'nef' has no attribute {name!r}{hint}")
     try:
         return importlib.import_module("nef." + name)
     except ImportError:
@@ -99,9 +117,14 @@ def _repr(self):
         return "<nef.Polyhedron: the empty set>"
     if self.is_everything():
         return "<nef.Polyhedron: all of space>"
-    n = self.counts()
-    return (f"<nef.Polyhedron: {n.vertices} vertices, {n.edges} edges, {n.facets} facets, {n.volumes} volumes, "
-            f"{n.shells} shells>")
+    nouns = (("vertex", "vertices"), ("edge", "edges"), ("facet", "facets"), ("volume", "volumes"), ("shell", "shells"))
+    counts = ", ".join(f"{count} {nouns[i][count != 1]}" for i, count in enumerate(self.counts()))
+    return f"<nef.Polyhedron: {counts}>"
+
+
+def _missing(self, name):
+    hint = f"; use {_OF_SET[name]}" if name in _OF_SET else ""
+    raise AttributeError(f"'nef.Polyhedron' object has no attribute {name!r}{hint}")
 
 
 def _tiled_repr(self):
@@ -112,6 +135,7 @@ TiledPolyhedron.__module__ = "nef"
 TiledPolyhedron.__repr__ = _tiled_repr
 Polyhedron.__module__ = "nef"
 Polyhedron.__repr__ = _repr
+Polyhedron.__getattr__ = _missing
 Polyhedron.to_trimesh = _meshes.to_trimesh
 Polyhedron.to_open3d = _meshes.to_open3d
 Polyhedron.to_meshio = _meshes.to_meshio

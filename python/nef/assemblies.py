@@ -81,6 +81,8 @@ def parts_of(parts: Parts) -> Tuple[List[str], List[Polyhedron]]:
     """Names and sets of parts, which may be an assembly's file. Changes to the input of a file are warnings."""
     if isinstance(parts, dict):
         return [str(name) for name in parts], list(parts.values())
+    if not isinstance(parts, (str, os.PathLike)):
+        raise TypeError(f"parts must be a dictionary {{name: Polyhedron}} or the name of a file, not {type(parts).__name__}")
     names, sets, messages = _planner.read_parts(os.fspath(parts))
     for message in messages:
         warnings.warn(message, InputWarning, stacklevel=3)

@@ -182,6 +182,8 @@ def range_of_motion(moving: Any, fixed: Optional[Union[Dict[str, Polyhedron], Se
     else:
         if fixed is None or joint is None:
             raise InputError("a range of motion needs `fixed` and `joint`")
+        if isinstance(fixed, Polyhedron):
+            raise TypeError("fixed must be a list or a dictionary of Polyhedron: write [fixed] for one part")
         names = list(fixed) if isinstance(fixed, dict) else [f"part {i}" for i in range(len(fixed))]
         sets = list(fixed.values()) if isinstance(fixed, dict) else list(fixed)
         parts = _planner.range_of_motion(moving, sets, (type(joint).__name__.lower(), *joint), low, high)
@@ -299,8 +301,11 @@ class Linkage:
               obstacles: Sequence[Polyhedron] = ()) -> CheckedMotion:
         """Whether the robot collides, with obstacles or itself, while all joints go evenly from values to values.
 
-        - start, end: a value for each joint that has one, in the order of the links; the robot stays if `end` is None
+        - start, end: a value for each joint that has one, in the order of the links (radians, or lengths); the robot stays
+          if `end` is None
         """
+        if isinstance(obstacles, Polyhedron):
+            raise TypeError("obstacles must be a list of Polyhedron: write [obstacle] for one")
         obstacles = list(obstacles)
         known = self._checker
         if known is None or len(known[1]) != len(obstacles) or any(a is not b for a, b in zip(known[1], obstacles)):

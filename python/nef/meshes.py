@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Meshes of other packages, by what they look like. Each package is imported only when one of its objects is used."""
+import os
 from typing import Any
 
 import numpy
@@ -35,7 +36,9 @@ def _arrays_of(mesh):
             faces.append(flat[at + 1:at + 1 + flat[at]].tolist())
             at += 1 + flat[at]
         return numpy.asarray(points), faces
-    raise TypeError(f"a mesh needs .vertices and .faces; {type(mesh).__name__} has neither these nor .points and .cells")
+    hint = "; nef.read reads a file" if isinstance(mesh, (str, os.PathLike)) else ""
+    raise TypeError(
+        f"a mesh needs .vertices and .faces; {type(mesh).__name__} has neither these nor .points and .cells{hint}")
 
 
 def _three_columns(points):
@@ -75,8 +78,9 @@ def from_mesh(vertices: Any, faces: Any = None, *, strict: bool = False, surface
       number: "refuse" (an InputError), "union" (enclosed at least once), "nonzero" (parts that are inside out, too),
       "odd" (overlaps are cavities), "outside" (not reachable from outside), "guess" (for meshes with holes: a winding
       number of at least one half). A warning reports the choice. "odd" and "outside" ignore the orientation of faces
-    - close: if above 0, a mesh that does not bound a solid is repaired as by `nef repair --close`: its holes get lids if
-      these have at most this percentage of the area of the mesh with lids. Lids are a guess, and reported as a warning
+    - close: a percentage, such as 10 (True counts as 1). If above 0, a mesh that does not bound a solid is repaired as by
+      `nef repair --close`: its holes get lids if these have at most this percentage of the area of the mesh with lids.
+      Lids are a guess, and reported as a warning
 
     A mesh may touch itself; a mesh without vertices and faces is the empty set (with a warning). Raises InputError if the
     mesh is open, inconsistently oriented, crosses itself, or has vertices but no faces; `vertices`, `edges` and `faces` of

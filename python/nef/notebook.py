@@ -20,6 +20,14 @@ def _names(sets, names):
     return names
 
 
+def _checked(sets):
+    for a in sets:
+        if not isinstance(a, Polyhedron):
+            hint = "; nef.read reads a file" if isinstance(a, (str, os.PathLike)) else "; several are a, b or *list"
+            raise TypeError(f"sets must be of type Polyhedron, not {type(a).__name__}{hint}")
+    return list(sets)
+
+
 def page(*sets: Polyhedron, names: Optional[Sequence[str]] = None, title: str = "nef") -> str:
     """The viewer page of some sets, each a layer, as text: one HTML file that needs nothing else.
 
@@ -29,14 +37,14 @@ def page(*sets: Polyhedron, names: Optional[Sequence[str]] = None, title: str = 
 
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "page.html")
-        _nef._write_page(list(sets), _names(sets, names), path, title)
+        _nef._write_page(_checked(sets), _names(sets, names), path, title)
         with open(path, encoding="utf-8") as file:
             return file.read()
 
 
 def picture(*sets: Polyhedron, width: int = 640, height: int = 480) -> bytes:
     """A picture of some sets: the bytes of a PNG."""
-    return _nef._picture(list(sets), width, height)
+    return _nef._picture(_checked(sets), width, height)
 
 
 def show(*sets: Polyhedron, names: Optional[Sequence[str]] = None, title: str = "nef",
@@ -52,7 +60,7 @@ def show(*sets: Polyhedron, names: Optional[Sequence[str]] = None, title: str = 
     if path is None:
         handle, path = tempfile.mkstemp(prefix="nef-", suffix=".html")
         os.close(handle)
-    _nef._write_page(list(sets), names, os.fspath(path), title)
+    _nef._write_page(_checked(sets), names, os.fspath(path), title)
     if open_browser:
         import webbrowser
 

@@ -231,6 +231,12 @@ class Scene:
 
     def __init__(self, robot: Polyhedron, obstacles: Sequence[Polyhedron], box: Any = None, contact: bool = True,
                  names: Optional[Sequence[str]] = None, rotation: Optional[Rotation] = None):
+        if isinstance(obstacles, Polyhedron):
+            raise TypeError("obstacles must be a list of Polyhedron: write [obstacle] for one")
+        if isinstance(contact, str):
+            raise TypeError(f"contact must be True (allow) or False (forbid), not {contact!r}")
+        if isinstance(rotation, str):
+            raise TypeError(f"rotation must be a Rotation, such as Rotation({rotation!r}, 0, 360), not {rotation!r}")
         obstacles = list(obstacles)
         if names is None:
             names = [f"obstacle {i}" for i in range(len(obstacles))]
@@ -464,7 +470,16 @@ def _poses_of(path):
         if path.waypoints is None:
             raise Error(f"there is no path: {path.status}")
         return list(zip(path.waypoints, path.turns or [(1, 0, 0, 0)] * len(path.waypoints)))
-    return [(tuple(position), tuple(quaternion)) for position, quaternion in path]
+    return [_pose(pose) for pose in path]
+
+
+def _pose(pose):
+    try:
+        position, quaternion = pose
+        return tuple(position), tuple(quaternion)
+    except (TypeError, ValueError):
+        raise InputError(f"a pose is (position, quaternion), such as ((0, 0, 0), (1, 0, 0, 0)), not {pose!r}; "
+                         "check() takes positions alone") from None
 
 
 def read(path: Any, *, crossings: str = "union", close: float = 0) -> Scene:

@@ -85,9 +85,23 @@ def _hull(answer):
                 answer["notes"], answer["pieces"], answer["suspects"], refinement and _refinement(refinement))
 
 
+def _files(files):
+    """The names of files, of which there is a list."""
+    if isinstance(files, (str, bytes, os.PathLike)):
+        raise TypeError(f"photographs must be a list of files, such as sorted(glob.glob('photographs/*.png')), not {files!r}")
+    return [os.fspath(file) for file in files]
+
+
+def _mask(mask):
+    if isinstance(mask, (str, bytes, os.PathLike)):
+        raise TypeError(f"a mask is an array of shape (H, W), not {mask!r}; read() takes files")
+    return numpy.asarray(mask)
+
+
 def _told(error, names):
     """The error with `view` set to the view that its text names."""
-    text = str(error)
+    text = str(error).replace("view view ", "view ")  # "view 0" is a name
+    error.args = (text,)
     error.view = next((name for name in sorted(names, key=len, reverse=True) if name in text), None)
     return error
 
@@ -120,7 +134,7 @@ def compute(masks: Sequence[Any], cameras: Sequence[Any], names: Optional[Sequen
 
     Raises InputError, whose `view` is the name of the view at fault, for an empty mask or a matrix that is not a camera.
     """
-    masks = [numpy.asarray(mask) for mask in masks]
+    masks = [_mask(mask) for mask in masks]
     cameras = [numpy.asarray(camera).tolist() for camera in cameras]
     names = [f"view {i}" for i in range(len(masks))] if names is None else [str(name) for name in names]
     if not len(masks) == len(cameras) == len(names):
@@ -230,7 +244,7 @@ def refine(masks: Sequence[Any], cameras: Optional[Sequence[Any]] = None, names:
 
     Raises InputError for an empty mask, a matrix that is not a camera, or too few views.
     """
-    masks = [(numpy.asarray(mask) != 0).astype(numpy.uint8) for mask in masks]
+    masks = [(_mask(mask) != 0).astype(numpy.uint8) for mask in masks]
     names = [f"view {i}" for i in range(len(masks))] if names is None else [str(name) for name in names]
     given = None if cameras is None else [numpy.asarray(camera).tolist() for camera in cameras]
     if len(masks) != len(names) or (given is not None and len(given) != len(masks)):
@@ -268,7 +282,7 @@ def masks(photographs: Sequence[Any], method: str = "auto", *, threads: int = 1)
 
     Raises InputError for a photograph that cannot be read, and for an unknown method.
     """
-    answer = Masks(*_visual_hull.masks([os.fspath(file) for file in photographs], method, threads))
+    answer = Masks(*_visual_hull.masks(_files(photographs), method, threads))
     for note in answer.notes:
         warnings.warn(note, InputWarning, stacklevel=2)
     return answer
@@ -333,8 +347,8 @@ def calibrate(photographs: Sequence[Any], board: str = USUAL_BOARD, *, lens: Seq
 
     Raises InputError if the board is found in fewer than three photographs, or for a file that is not an image.
     """
-    answer = _visual_hull.calibrate([os.fspath(file) for file in photographs], board,
-                                    [os.fspath(file) for file in lens], "" if scene is None else os.fspath(scene), threads)
+    answer = _visual_hull.calibrate(_files(photographs), board, _files(lens), "" if scene is None else os.fspath(scene),
+                                    threads)
     for note in answer["notes"]:
         warnings.warn(note, InputWarning, stacklevel=2)
     for key in "views", "lens_views":

@@ -259,6 +259,12 @@ def test_visual_hull(needs):
         visual_hull.compute([mask], [numpy.zeros((3, 4))])
     with pytest.raises(ValueError):
         visual_hull.compute([mask], cameras)
+    with pytest.raises(TypeError, match=r"array of shape \(H, W\), not 'a.png'"):
+        visual_hull.compute(["a.png"], cameras)
+    with pytest.raises(TypeError, match="photographs must be a list of files"):
+        visual_hull.masks("photographs")
+    with pytest.raises(nef.InputError, match="^view 1: the silhouette is empty"):
+        visual_hull.compute([mask, 0 * mask, mask], cameras, box=((-2, -2, -2), (2, 2, 2)))
 
 
 def turntable_of_balls(count, focal=300, distance=4, shape=(200, 240)):

@@ -88,6 +88,25 @@ def test_the_widest_robot(needs):
         scene.widest((1, 1, 1), (6, 6, 6), precision=0)
 
 
+def test_wrong_types_say_what_to_write(needs):
+    planner = needs("planner")
+    a = nef.box((0, 0, 0), (1, 1, 1))
+    with pytest.raises(TypeError, match=r"write \[obstacle\] for one"):
+        planner.Scene(a, a)
+    with pytest.raises(TypeError, match="True .allow. or False .forbid., not 'forbid'"):
+        planner.Scene(a, [a], contact="forbid")
+    with pytest.raises(TypeError, match=r"such as Rotation\('z', 0, 360\)"):
+        planner.Scene(a, [a], rotation="z")
+    with pytest.raises(nef.InputError, match=r"check\(\) takes positions alone"):
+        planner.Scene(a, [a]).certify([(0, 0, 0), (7, 0, 0)])
+    with pytest.raises(TypeError, match="parts must be a dictionary"):
+        planner.disassemble([a, a])
+    with pytest.raises(TypeError, match=r"write \[fixed\] for one part"):
+        planner.range_of_motion(a, a, planner.Hinge())
+    with pytest.raises(TypeError, match=r"write \[obstacle\] for one"):
+        planner.Linkage().check([], [], a)
+
+
 def test_proofs_of_parts_that_cannot_move(needs):
     planner = needs("planner")
     shell = nef.box((0, 0, 0), (3, 3, 3)) - nef.box((1, 1, 1), (2, 2, 2)).interior()

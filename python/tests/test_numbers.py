@@ -70,7 +70,11 @@ def test_large_integers_stay_exact():
 def test_shapes_are_told():
     with pytest.raises(ValueError, match=r"\(N, 3\).*\(4, 2\)"):
         nef.hull(numpy.zeros((4, 2)))
-    with pytest.raises(ValueError, match="three numbers"):
+    with pytest.raises(ValueError, match="each row of points needs three numbers, such as"):
         nef.hull([[1, 2], [3, 4]])
+    with pytest.raises(ValueError, match="each row of each list in rings"):
+        nef.polygon([(0, 0, 0), (1, 0, 0), (0, 1, 0)])
+    with pytest.raises(ValueError, match="write b <= a for sets"):
+        nef.point((0, 0, 0)) in nef.box((0, 0, 0), (1, 1, 1))
     with pytest.raises(nef.InputError, match="point 1"):
         nef.box((0, 0, 0), (1, 1, 1)).contains(numpy.array([[0, 0, 0], [0, numpy.nan, 0]]))

@@ -31,6 +31,18 @@ def test_unknown_attributes_are_attribute_errors():
     with pytest.raises(AttributeError, match="no attribute 'minkovski'"):
         nef.minkovski
     assert not hasattr(nef, "__path_of_nothing__")
+    assert not hasattr(nef.empty(), "minkovski")
+
+
+def test_names_of_other_packages_lead_to_ours():
+    with pytest.raises(AttributeError, match=r"no attribute 'union'; use a \| b, or unite_all"):
+        nef.union
+    with pytest.raises(AttributeError, match=r"no attribute 'union'; use a \| b$"):
+        nef.empty().union
+    with pytest.raises(TypeError, match="not str; nef.read reads a file"):
+        nef.show("part.off")
+    with pytest.raises(TypeError, match="nef.read reads a file"):
+        nef.from_mesh("part.off")
 
 
 def test_an_application_that_was_not_built_is_an_attribute_error(tmp_path):

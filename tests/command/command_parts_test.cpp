@@ -278,7 +278,10 @@ TEST_CASE("repair resolves faces that cross by a rule, and reports what it count
 TEST_CASE("drawings and STL files of nothing are such that other programs read them") {
   const Workplace here;
   REQUIRE(here.nef("eval nothing -o none.nef").code == 0);
-  CHECK(here.nef("section none.nef --plane 0,0,1,0 -o none.svg").code == 0);
+  const Outcome none = here.nef("section none.nef --plane 0,0,1,0 -o none.svg");
+  CHECK(none.code == 0);
+  CHECK(none.err.find("note: the plane does not meet the set") != std::string::npos);
+  CHECK(here.nef("repair none.nef -o none.off").err.find("needs no repair") != std::string::npos);
   const std::string svg = here.read("none.svg");
   const std::string box = "viewBox=\"";
   std::istringstream numbers(svg.substr(svg.find(box) + box.size()));

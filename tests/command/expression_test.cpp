@@ -193,6 +193,8 @@ TEST_CASE("errors give the column and what was expected") {
   CHECK(refusal("plate = box(0,0,0,1,1,1); plat") ==
         "column 27: there is no set or function 'plat'; did you mean 'plate'?");
   CHECK(refusal("x") == "column 1: there is no set or function 'x'");
+  CHECK(refusal("rotate([0,0,30]) box(0,0,0,1,1,1)") ==
+        "column 8: expected a set, found '['; the set comes first, as in translate(A, 1,2,3)");
   CHECK(refusal("nothing + \n  (everything") ==
         "line 2, column 14: expected ')' for the '(' at line 2, column 3, found the end");
   CHECK(refusal("box(0,0,0,1,1)").rfind("column 14: expected another number, found ')'", 0) == 0);

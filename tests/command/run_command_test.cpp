@@ -53,12 +53,19 @@ TEST_CASE("usage errors are one line and exit code 2") {
   check_refused(here.nef("frobnicate a.off"), "frobnicate");
   check_refused(here.nef("unoin a.off -o b.off"),
                 "there is no subcommand 'unoin'; did you mean 'union'? (see nef --help)");
+  check_refused(here.nef("rotate a.off -o b.off"), "there is no subcommand 'rotate'; did you mean 'transform'?");
+  check_refused(here.nef("section a.off --plane z=2"), "--plane: 'z=2' is not a number");
+  check_refused(here.nef("section a.off --plane 0,0,1,-1 -o b.pdf"), "svg, dxf, nef,");
   check_refused(here.nef("info a.off --thraeds 2"),
                 "no option '--thraeds'; did you mean '--threads'? (see nef info --help)");
+  check_refused(here.nef("eval a.off -o b.off"), R"(a.off is a file: write 'file("a.off")')");
   check_refused(here.nef("eval model.scad -o b.off"), "openscad -o model.csg model.scad");
   check_refused(here.nef("intersection a.off"), "nef intersection --help");
   check_refused(here.nef("difference a.off"), "nef difference --help");
   check_refused(here.nef("convert a.off"), "--output");
+  check_refused(here.nef("convert a.off b.off"),
+                "--output is required; unexpected argument 'b.off'; an output file is named with -o");
+  check_refused(here.nef("info a.off b.off"), "unexpected argument 'b.off' (see nef info --help)");
   check_refused(here.nef("info a.off --frob"), "--frob");
   check_refused(here.nef("locate a.off 1,2"), "1,2");
   check_refused(here.nef("locate a.off 1,2,three"), "three");

@@ -133,6 +133,9 @@ def documents(source: str) -> list[str]:
 
 
 def main() -> int:
+    if len(sys.argv) < 4 or sys.argv[1] in ("-h", "--help"):
+        print(__doc__)
+        return 0 if sys.argv[1:2] in (["-h"], ["--help"]) else 2
     source, programs, work = (os.path.abspath(path) for path in sys.argv[1:4])
     failures = 0
     ran = compared = 0

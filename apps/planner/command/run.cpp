@@ -58,7 +58,8 @@ int run(const Arguments& a) {
   if (a.widest || a.widest_box) widest = make_widest(a, scene);
   if (scene.rotation) return run_turning(a, scene, widest);
   if (!a.check_proof.empty())
-    throw InputError("--check-proof " + a.check_proof + ": no .proof file, and the scene has no rotation");
+    throw InputError("--check-proof " + a.check_proof +
+                     ": this is not a file that --proof wrote; only for scenes with a rotation it may be a report");
   return run_translations(a, scene, widest, path);
 }
 

@@ -127,8 +127,8 @@ class TranslationRun {
     const bool better =
         answer.thinness && (answer.thinness->piece > of_path.piece || answer.thinness->junction > of_path.junction);
     if (better) {
-      std::cout << " (another path: " << answer.thinness->piece << ", " << answer.thinness->junction
-                << "; try --prefer roomy)";
+      std::cout << " (--prefer roomy finds a path with " << answer.thinness->piece << " and "
+                << answer.thinness->junction << ")";
     }
     std::cout << '\n' << unrounded_text(answer.path->unrounded);
     if (a_.outputs.empty()) std::cout << path_text(*answer.path);

@@ -17,6 +17,7 @@
 #include "apps/planner/turning/turning_robot.h"
 #include "apps/program/exact_json.h"
 #include "apps/program/json_reader.h"
+#include "nef/base/counted.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/time_limit.h"
 #include "nef/io/file_bytes.h"
@@ -99,7 +100,7 @@ std::string turning_text(const TurningAnswer& answer, const TurningAxis& axis) {
 TurningProof read_turning_proof(const std::string& file) {
   const json value = parse_exact_json(read_file(file), file);
   const JsonReader report(value, file);
-  if (!report.has("proof")) report.fail("no report with a proof (status infeasible)");
+  if (!report.has("proof")) report.fail("this report has no proof; only one with the status infeasible has");
   const JsonReader root = report["proof"];
   root.require_keys({"breakpoints", "cells"});
   TurningProof proof;
@@ -137,7 +138,7 @@ std::array<double, 4> quaternion_of(double degrees, const TurningAxis& axis) {
 
 void print(const Arguments& a, const TurningAnswer& answer, const TurningAxis& axis) {
   std::cout << status_name(answer.status);
-  if (a.ompl.empty()) std::cout << ", " << answer.cells << " cells of angles";
+  if (a.ompl.empty()) std::cout << ", " << counted(answer.cells, "cell", "cells") << " of angles";
   if (answer.status == TurningAnswer::Status::kUndecided) {
     std::cout << "; open:";
     for (const TurnRange& range : answer.open_ranges) {
@@ -155,7 +156,7 @@ int check_proof(const Arguments& a, const Scene& scene) {
   const std::optional<std::string> complaint = complaint_about(proof, scene, question_of(scene));
   const std::size_t cells = proof.cells.size();
   return tell_check(a, scene.name, {{"scene", scene.name}, {"cells", cells}}, complaint,
-                    ", " + std::to_string(cells) + " cells of angles", watch);
+                    ", " + counted(cells, "cell", "cells") + " of angles", watch);
 }
 
 }  // namespace
@@ -180,9 +181,13 @@ std::vector<view::Layer> turning_layers(const TurningAnswer& answer, const Scene
 }
 
 int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& widest) {
+  if (a.app->count("--proof") > 0) {
+    throw InputError(
+        "--proof: a scene with a rotation has its proof in the report (-o FILE.json), if it is infeasible");
+  }
   exclude(a, "a scene with a rotation",
           {"--tight", "--path", "--queries", "--benchmark", "--min-dimension", "--clearance", "--raw", "--quick",
-           "--prefer", "--se3", "--proof"});
+           "--prefer", "--se3"});
   require_extensions(a, "for a scene with a rotation", {"json", "txt", "csv", "glb", "html"});
   if (!a.ompl.empty() && a.path.digits) {
     throw InputError("--digits: OMPL's paths of a robot that turns cannot be rounded");

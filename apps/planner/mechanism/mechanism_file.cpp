@@ -52,7 +52,7 @@ Mechanism parse_mechanism(const std::string& text, const std::string& folder, co
   const nlohmann::json value = parse_exact_json(text, name);
   const JsonReader root(value, name);
   root.require_keys({"moving", "fixed", "joint"});
-  if (!value["fixed"].is_array()) root.fail("'fixed' must be a list");
+  if (!value["fixed"].is_array()) root.fail(R"('fixed' must be a list, as in ["wall.off"])");
   Mechanism m;
   m.name = std::filesystem::path(name).stem().string();
   read_joint(root["joint"], m);

@@ -30,7 +30,8 @@ void read_rotation(const JsonReader& value, Scene& scene) {
 
 // Start or goal; `angle`, if wanted, receives the fourth number.
 Rational3 end_of(const JsonReader& value, Rational* angle) {
-  if (angle == nullptr || !value.value().is_array() || value.value().size() != 4) return value.point();
+  if (!value.value().is_array() || value.value().size() != 4) return value.point();
+  if (angle == nullptr) value.fail("expected three numbers; a fourth one, degrees, needs a 'rotation' in the scene");
   const std::array<Rational, 4> numbers = value.exactly<4>(&JsonReader::number_of);
   *angle = numbers[3];
   return {numbers[0], numbers[1], numbers[2]};
@@ -67,14 +68,15 @@ Scene parse_scene(const std::string& text, const std::string& folder, const std:
     for (Rational& x : reference) x = -x;
     scene.robot = transform(scene.robot, AffineMap::translate(reference), monitor);
   }
-  if (!value["obstacles"].is_array()) root.fail("'obstacles' must be a list");
+  if (!value["obstacles"].is_array()) root.fail(R"('obstacles' must be a list, as in ["wall.off"])");
   for (const nlohmann::json& obstacle : value["obstacles"]) {
     const JsonReader at(obstacle, name + ": obstacle " + std::to_string(scene.obstacles.size()));
     scene.obstacles.push_back(shape_of(at, folder, meshes, scene.messages));
     scene.obstacle_names.push_back(obstacle.get<std::string>());
   }
   if (root.has("box") && !value["box"].is_null()) {
-    if (!value["box"].is_array() || value["box"].size() != 2) root.fail("'box' must be [low point, high point]");
+    if (!value["box"].is_array() || value["box"].size() != 2)
+      root.fail("'box' must be [low point, high point], as in [[0, 0, 0], [9, 3, 3]]");
     scene.box = root["box"].exactly<2>(&JsonReader::point_of);
     for (std::size_t i = 0; i < 3; ++i) {
       if ((*scene.box)[0][i] > (*scene.box)[1][i]) root["box"].fail("its first point must be the lower one");

@@ -80,7 +80,7 @@ inline MeshOptions scene_meshes(const Monitor& monitor = {}) {
 /// is the rational that its text spells (0.1 is one tenth). SHAPE is a string: the path of a mesh or
 /// nef file, relative to the scene, or else an expression of `nef eval` such as
 /// "box(0,0,0, 9,3,3) - box(1,1,1, 2,2,2)". With a rotation, start and goal have a fourth number: degrees. Throws
-/// InputError with one line for anything else. `meshes`: how mesh files are read (read_shape_file), and who watches.
+/// InputError with one line for anything else. `meshes`: how mesh files are read (read_shape_file), and the Monitor.
 Scene read_scene(const std::string& path, const MeshOptions& meshes = scene_meshes());
 
 /// The same from text; `folder` is where file names begin.

@@ -65,7 +65,7 @@ struct ExpressionOptions {
   std::function<Polyhedron(const Rational& radius, const Rational& splits, const Monitor& monitor)> ball = {};
   /// Makes the hull of a set that is not bounded. Without it, such hulls are refused.
   std::function<Polyhedron(const Polyhedron& unbounded, const Monitor& monitor)> hull = {};
-  Monitor monitor = {};  ///< who watches; what it refers to must outlive the call
+  Monitor monitor = {};  ///< cancellation, progress, counters; its referents must outlive the call
   /// Is told what is legal but likely a mistake (sizes of OpenSCAD's shapes that make nothing), a line each.
   std::function<void(const std::string& warning)> warn = {};
 };

@@ -150,7 +150,7 @@ class ExpressionParser : private ExpressionScanner {
     } else if (is_letter(c)) {
       node = primary();
     } else {
-      fail("expected a set, found " + here());
+      fail("expected a set, found " + here() + (c == '[' ? "; the set comes first, as in translate(A, 1,2,3)" : ""));
     }
     --depth_;
     return node;

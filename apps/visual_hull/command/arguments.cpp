@@ -58,7 +58,8 @@ void add_input_options(CLI::App& app, Arguments& a) {
       ->delimiter(',')
       ->needs(turntable);
   app.add_option("--radius", a.radius, "Distance of the camera from the axis (z) of the turntable")->needs(turntable);
-  app.add_option("--height", a.height, "Height of the camera of the turntable above the origin, which it looks at")
+  app.add_option("--height", a.height,
+                 "Height of the camera of the turntable above the origin, which it looks at (default: 0)")
       ->needs(turntable);
   app.add_option("--images", a.images,
                  "Directory with an image for each view, found by the names in the scene, or else by the order of the "

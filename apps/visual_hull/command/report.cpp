@@ -157,7 +157,7 @@ std::string vanished_text(const Result& result) {
   if (vanished.sets.empty() || vanished.sets[0].size() == 1) text += "view " + vanished.view + ": ";
   text += vanished.reason;
   for (std::size_t i = 1; i < vanished.sets.size(); ++i) {
-    text += (i == 1 ? "; nor have " : ", ") + fmt::format("{}", fmt::join(vanished.sets[i], " + "));
+    text += (i == 1 ? "; likewise " : ", ") + fmt::format("{}", fmt::join(vanished.sets[i], " + "));
   }
   return text;
 }

@@ -153,9 +153,10 @@ Scene read_camera_folder(const fs::path& folder) {
     scene.format = "a PMVS folder of CONTOUR files, one 3x4 matrix per file";
   }
   if (files.empty()) {
-    throw nef::InputError(folder.string() +
-                          " is a directory without cameras (a COLMAP model, transforms.json, NAME.pa, "
-                          "or CONTOUR files of PMVS in txt/); give a scene file");
+    throw nef::InputError(
+        folder.string() +
+        " is a directory without cameras (a COLMAP model, transforms.json, NAME.pa, "
+        "or CONTOUR files of PMVS in txt/); give a scene file, or --turntable N for images of one turn");
   }
   for (const fs::path& file : files) {
     Scene one = read_text_scene(nef::read_file(file.string()), file);

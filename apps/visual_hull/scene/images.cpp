@@ -152,7 +152,10 @@ std::vector<fs::path> images_of(const Scene& scene, const fs::path& folder, cons
     const View& view = scene.views[i];
     if (view.polygons) continue;
     if (view.image.empty()) {
-      throw nef::InputError("view " + view.name + ": the scene names no image; give --images DIR or --silhouette");
+      throw nef::InputError(
+          fmt::format("view {}: the scene names no image, and neither {} nor masks/, silhouettes/ or images/ in it "
+                      "contains {} images, one for each view; give --images DIR or --silhouette",
+                      view.name, folder.empty() ? "." : folder.string(), count));
     }
     const auto found = look_up_image(folders, view.image.string());
     files[i] = found ? *found : find_image(folder, view.image.string());

@@ -21,8 +21,8 @@ Mesh read_mesh(std::string_view bytes, const std::string& path, MeshParts* parts
   const auto found = std::find_if(mesh_formats().begin(), mesh_formats().end(),
                                   [&](const MeshFormat& format) { return format.recognizes(bytes); });
   if (found != mesh_formats().end()) return found->read(bytes, path, parts);
-  throw FileError(FileProblem::kUnreadable,
-                  path + ": the format is unknown; use the extension " + mesh_format_extensions());
+  throw FileError(FileProblem::kUnreadable, path + ": the format is unknown; use the extension " +
+                                                mesh_format_extensions() + " (of a set: nef or nef3)");
 }
 
 }  // namespace nef

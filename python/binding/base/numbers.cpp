@@ -106,7 +106,7 @@ Rational3 to_triple(py::handle triple, const char* what) {
   }
   if (!PySequence_Check(triple.ptr()) || PyUnicode_Check(triple.ptr()) || PySequence_Size(triple.ptr()) != 3) {
     PyErr_Clear();
-    throw InputError(std::string(what) + " needs three numbers");
+    throw InputError(std::string(what) + " needs three numbers, such as (0, 0, 1)");
   }
   for (std::size_t i = 0; i < 3; ++i) {
     result[i] = to_rational(steal_or_throw(PySequence_GetItem(triple.ptr(), static_cast<Py_ssize_t>(i))));
@@ -156,7 +156,9 @@ std::vector<Rational3> to_points(py::handle points, const char* what) {
     }
   }
   std::vector<Rational3> result;
-  for (const py::handle row : py::reinterpret_borrow<py::object>(points)) result.push_back(to_triple(row, what));
+  const std::string each = "each row of " + std::string(what);
+  for (const py::handle row : py::reinterpret_borrow<py::object>(points))
+    result.push_back(to_triple(row, each.c_str()));
   return result;
 }
 

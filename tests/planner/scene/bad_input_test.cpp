@@ -79,6 +79,7 @@ TEST_CASE("bad scenes") {
       {robot + free + R"J("goal": [1, 1, 1]})J", "has no start"},
       {robot + free + R"J("start": [1, 1, 1]})J", "has no goal"},
       {robot + free + R"J("start": [0, 0], "goal": [1, 1, 1]})J", "start: expected three numbers"},
+      {robot + free + R"J("start": [0, 0, 0, 90], "goal": [1, 1, 1]})J", "a fourth one, degrees, needs a 'rotation'"},
       {robot + free + R"J("start": "0,0,0", "goal": [1, 1, 1]})J", "start: expected three numbers"},
       {robot + free + R"J("start": [0, 0, "x"], "goal": [1, 1, 1]})J", "'x' is not a number"},
       {robot + free + R"J("start": [0, 0, "1/0"], "goal": [1, 1, 1]})J", "'1/0' is not a number"},

@@ -151,6 +151,9 @@ void write_record(const std::string& path, const Mesh& input, const FaceRecord& 
 // The mesh of a file, and which of its named parts each face belongs to; no groups if it has none.
 Mesh read_in_parts(const std::string& path, FaceGroups& parts) {
   const PartPath at = part_path(path);
+  if (is_set_extension(lower_extension(at.file))) {
+    throw InputError(path + ": only meshes are repaired; a set in this format needs no repair");
+  }
   if (!at.part.empty() || find_mesh_format(lower_extension(at.file)) == nullptr) return read_mesh(path);
   MeshParts named;
   Mesh mesh = read_mesh(read_file(path), path, &named);

@@ -67,6 +67,14 @@ void refuse_openscad_source(const std::string& path) {
                    flat);
 }
 
+// What is no expression but the name of a file.
+void refuse_file_name(const std::string& text) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(text, error)) return;
+  throw InputError(text + " is a file: write 'file(\"" + text + "\")' for a set or mesh, or -f " + text +
+                   " for a file with an expression");
+}
+
 void run_eval(Session& session, const EvalFlags& flags, const CommandExtensions& extensions) {
   ExpressionOptions options = expression_options(session, extensions);
   std::string path = flags.script;
@@ -80,7 +88,14 @@ void run_eval(Session& session, const EvalFlags& flags, const CommandExtensions&
   session.show_phase("computing");
   const Measured measured = measure(session.repeat, session.monitor, [&](const Monitor& monitor) {
     options.monitor = monitor;
-    if (path.empty()) return evaluate_expression(text, options);
+    if (path.empty()) {
+      try {
+        return evaluate_expression(text, options);
+      } catch (const InputError&) {
+        refuse_file_name(text);
+        throw;
+      }
+    }
     return evaluate_file(path, text, lower_extension(path) == "csg", session, options);
   });
   finish(session, "eval", measured);

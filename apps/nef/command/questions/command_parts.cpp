@@ -10,8 +10,10 @@
 #include "apps/nef/command/commands.h"
 #include "apps/nef/command/questions/section_drawing.h"
 #include "apps/program/numbers.h"
+#include "nef/base/counted.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
+#include "nef/base/word_list.h"
 #include "nef/distance/distance.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
@@ -20,6 +22,7 @@
 #include "nef/parts/section.h"
 #include "nef/parts/split.h"
 #include "nef/polyhedron.h"
+#include "nef/tiles/storage/tile_folder.h"
 
 namespace nef {
 namespace {
@@ -31,6 +34,12 @@ void write_section(Session& session, const Section& section, const Rational3& no
   } else if (extension == "dxf") {
     write_file(session.output, section_dxf(section, normal));
   } else {
+    std::vector<std::string> known = file_extensions();
+    const bool is_known = std::find(known.begin(), known.end(), extension) != known.end();
+    if (session.format.empty() && !extension.empty() && !is_known && !names_tile_folder(session.output)) {
+      known.insert(known.begin(), {"svg", "dxf"});
+      throw InputError(session.output + ": unknown extension; use " + word_list(known, "or"));
+    }
     session.store(section.set);
     return;
   }
@@ -48,6 +57,7 @@ void run_section(Session& session, const std::string& plane) {
   const Section cut = section(set, normal, n[3], session.monitor);
   const double section_s = watch.seconds();
   if (!session.output.empty()) write_section(session, cut, normal);
+  if (cut.set.is_empty()) session.note("the plane does not meet the set");
   if (session.json) {
     session.spent("op", section_s);
     Json object;
@@ -58,8 +68,9 @@ void run_section(Session& session, const std::string& plane) {
     object["area"] = section_area(cut);
     return session.print("section", object);
   }
-  session.say(std::to_string(cut.polygons.size()) + " polygons, " + std::to_string(cut.segments.size()) +
-              " segments, " + std::to_string(cut.points.size()) + " points; area " + Json(section_area(cut)).dump());
+  session.say(counted(cut.polygons.size(), "polygon", "polygons") + ", " +
+              counted(cut.segments.size(), "segment", "segments") + ", " +
+              counted(cut.points.size(), "point", "points") + "; area " + Json(section_area(cut)).dump());
 }
 
 std::string left_out_text(std::size_t left_out, std::size_t all) {

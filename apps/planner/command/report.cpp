@@ -36,18 +36,6 @@ json names_json(const FreeSpace& free, const std::vector<CellId>& cells) {
   return result;
 }
 
-json collision_json(const Collision& collision, const Scene& scene) {
-  json result{{"point", exact_json(collision.point)}, {"text", describe(collision, scene)}};
-  if (collision.outside_box) {
-    result["outside_box"] = true;
-    return result;
-  }
-  result["obstacle"] = collision.obstacle;
-  result["obstacle_name"] = scene.obstacle_names[collision.obstacle];
-  result["cell"] = std::string(location_name(collision.cell.kind)) + " " + std::to_string(collision.cell.index);
-  return result;
-}
-
 void add_path(const ExactPath& path, json& result) {
   result["path"] = points_json(path.points);
   result["path_double"] = double_points_json(path.points);
@@ -87,6 +75,18 @@ json touching_json(const FreeSpace& free) {
 }
 
 }  // namespace
+
+json collision_json(const Collision& collision, const Scene& scene) {
+  json result{{"point", exact_json(collision.point)}, {"text", describe(collision, scene)}};
+  if (collision.outside_box) {
+    result["outside_box"] = true;
+    return result;
+  }
+  result["obstacle"] = collision.obstacle;
+  result["obstacle_name"] = scene.obstacle_names[collision.obstacle];
+  result["cell"] = std::string(location_name(collision.cell.kind)) + " " + std::to_string(collision.cell.index);
+  return result;
+}
 
 json points_json(const std::vector<Rational3>& points) {
   json result = json::array();

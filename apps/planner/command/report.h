@@ -33,6 +33,9 @@ std::string timed_text(const std::string& columns, const std::vector<double>& ti
 nlohmann::json points_json(const std::vector<Rational3>& points);
 nlohmann::json double_points_json(const std::vector<Rational3>& points);
 
+/// What an invalid start or goal, or a blocked path, collides with.
+nlohmann::json collision_json(const Collision& collision, const Scene& scene);
+
 /// The keys of one answer: status, path, proof, collision.
 nlohmann::json answer_json(const Answer& answer, const Scene& scene);
 /// Those of the scene and its free space: components, passages, contact. `free` is null if not all of it is known.

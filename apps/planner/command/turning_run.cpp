@@ -77,6 +77,7 @@ json turning_json(const TurningAnswer& answer, const Scene& scene, const Turning
                               {"turn", turn_json(pose.turn, axis)}});
   }
   if (!answer.path.empty()) result["unrounded"] = answer.unrounded;
+  if (answer.collision) result["collision"] = collision_json(*answer.collision, scene);
   if (answer.proof) result["proof"] = proof_json(*answer.proof, axis);
   for (const TurnRange& range : answer.open_ranges) {
     result["undecided"].push_back({turn_json(range.low, axis), turn_json(range.high, axis)});
@@ -136,8 +137,12 @@ std::array<double, 4> quaternion_of(double degrees, const TurningAxis& axis) {
   return {std::cos(half), std::sin(half) * direction[0], std::sin(half) * direction[1], std::sin(half) * direction[2]};
 }
 
-void print(const Arguments& a, const TurningAnswer& answer, const TurningAxis& axis) {
+void print(const Arguments& a, const TurningAnswer& answer, const Scene& scene, const TurningAxis& axis) {
   std::cout << status_name(answer.status);
+  if (answer.collision) {
+    std::cout << ": " << describe(*answer.collision, scene) << '\n';
+    return;
+  }
   if (a.ompl.empty()) std::cout << ", " << counted(answer.cells, "cell", "cells") << " of angles";
   if (answer.status == TurningAnswer::Status::kUndecided) {
     std::cout << "; open:";
@@ -198,8 +203,12 @@ int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& wi
   limits.max_cells = a.max_cells;
   limits.digits = a.path.digits;
   const TurningQuestion question = question_of(scene);
-  const TurningAnswer answer = a.ompl.empty() ? find_turning_path(scene, question, limits, limit.monitor())
-                                              : run_turning_ompl(scene, a.ompl, a.time.value_or(kOmplSeconds));
+  const auto asked = [&] {
+    if (a.ompl.empty()) return find_turning_path(scene, question, limits, limit.monitor());
+    const auto invalid = invalid_turning_end(scene, question, a.session.monitor);
+    return invalid ? *invalid : run_turning_ompl(scene, a.ompl, a.time.value_or(kOmplSeconds));
+  };
+  const TurningAnswer answer = asked();
   std::vector<double> times;
   if (!answer.path.empty() && a.limits.speed > 0)
     times = times_of(lengths_of(answer.path, scene.robot, question.axis), a.limits);
@@ -211,7 +220,7 @@ int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& wi
   };
   const auto for_people = [&] {
     if (!widest.is_null()) std::cout << widest_text(widest);
-    print(a, answer, question.axis);
+    print(a, answer, scene, question.axis);
   };
   // The report whatever the answer; other formats hold a path.
   const auto text = [&](const std::string& extension) -> std::optional<std::string> {

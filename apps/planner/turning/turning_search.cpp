@@ -307,22 +307,24 @@ class TurningSearch {
   TurningAnswer answer_;
 };
 
-// The answer that start or goal is not free, which needs no search.
-std::optional<TurningAnswer> invalid_end(const Scene& scene, const TurningQuestion& question, const Monitor& monitor) {
+}  // namespace
+
+std::optional<TurningAnswer> invalid_turning_end(const Scene& scene, const TurningQuestion& question,
+                                                 const Monitor& monitor) {
   turning_robot(scene.robot);
   for (const auto& [pose, status] : {std::pair(&question.start, TurningAnswer::Status::kInvalidStart),
                                      std::pair(&question.goal, TurningAnswer::Status::kInvalidGoal)}) {
     Scene there = scene;
     there.robot = transform(scene.robot, question.axis.rotation(pose->turn), monitor);
-    if (!find_collision(there, pose->position, monitor)) continue;
+    std::optional<Collision> collision = find_collision(there, pose->position, monitor);
+    if (!collision) continue;
     TurningAnswer answer;
     answer.status = status;
+    answer.collision = std::move(collision);
     return answer;
   }
   return std::nullopt;
 }
-
-}  // namespace
 
 TurningAnswer find_turning_path(const Scene& scene, const TurningQuestion& question, const TurningLimits& limits,
                                 const Monitor& monitor) {
@@ -333,7 +335,7 @@ TurningAnswer find_turning_path(const Scene& scene, const TurningQuestion& quest
   }
   if (!(question.low < question.high)) throw InputError("the range of angles must have an extent");
   try {
-    if (const std::optional<TurningAnswer> invalid = invalid_end(scene, question, monitor)) return *invalid;
+    if (const std::optional<TurningAnswer> invalid = invalid_turning_end(scene, question, monitor)) return *invalid;
     return TurningSearch(scene, question, limits, monitor).run();
   } catch (const Interrupted&) {
     TurningAnswer answer;

@@ -33,10 +33,16 @@ struct TurningAnswer {
   std::vector<Pose> path;
   std::vector<std::size_t> unrounded;  ///< way-points between the ends with more decimals than were asked for
   std::optional<TurningProof> proof;   ///< kInfeasible
+  std::optional<Collision> collision;  ///< kInvalidStart, kInvalidGoal
   std::vector<TurnRange> open_ranges;  ///< kUndecided: those in question
   std::size_t cells = 0;               ///< that the range is cut into in the end
   std::size_t looked_at = 0;           ///< those that were split again, too
 };
+
+/// The answer that start or goal is not free, which needs no search; nothing if both are. The robot must be a bounded
+/// solid, else InputError.
+std::optional<TurningAnswer> invalid_turning_end(const Scene& scene, const TurningQuestion& question,
+                                                 const Monitor& monitor = {});
 
 /// Decides by cells of angles (docs/planner.md, "Turning"). For each cell [a, b] the free space of an outer robot,
 /// which holds the robot at every angle of the cell: there the robot may turn from a to b on the spot. Components of

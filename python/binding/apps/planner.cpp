@@ -124,6 +124,7 @@ py::dict solve_turning(const plan::Scene& scene, std::size_t max_cells, const py
     open.append(py::make_tuple(question.axis.degrees_of(range.low), question.axis.degrees_of(range.high)));
   }
   result["open_ranges"] = open;
+  if (answer.collision) result["collision"] = plan::describe(*answer.collision, scene);
   if (answer.proof) result["proof"] = TurningProofOfScene{scene, question, std::move(*answer.proof)};
   return result;
 }

@@ -9,7 +9,8 @@ namespace {
 
 bool are_orthonormal(const Eigen::Matrix3d& axes) {
   // Rounding takes 4 * 2^-53 at most from the comparison.
-  return (axes.transpose() * axes - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() <= OrientedBox::kSkew / 2;
+  const Eigen::Matrix3d skew = axes.transpose() * axes - Eigen::Matrix3d::Identity();
+  return (skew.array().abs() <= OrientedBox::kSkew / 2).all();  // false if there is a NaN
 }
 
 // A vector across a unit vector.

@@ -139,6 +139,14 @@ bool set_up_checks(og::SimpleSetup& setup, const Checker& checker, const std::st
 
 // Within the scene's box, in spite of rounding; without one, around the obstacles, start and goal.
 ob::RealVectorBounds bounds_of(const Scene& scene, const MotionChecker& checker) {
+  Vector3d low = Vector3d::Constant(HUGE_VAL);
+  Vector3d high = -low;
+  for (const RigidBody::Piece& piece : checker.obstacles().pieces()) {
+    for (const Vector3d& p : piece.points) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+  }
   ob::RealVectorBounds bounds(3);
   for (unsigned i = 0; i < 3; ++i) {
     if (scene.box) {
@@ -146,10 +154,10 @@ ob::RealVectorBounds bounds_of(const Scene& scene, const MotionChecker& checker)
       bounds.setHigh(i, std::nextafter(nearest_double((*scene.box)[1][i]), -HUGE_VAL));
       continue;
     }
-    const RigidBody::Node& all = checker.obstacles().nodes().front();
     const std::array ends{nearest_double((*scene.start)[i]), nearest_double((*scene.goal)[i])};
-    bounds.setLow(i, std::min({all.centre[i] - all.half[i], ends[0], ends[1]}) - all.half[i] / 5);
-    bounds.setHigh(i, std::max({all.centre[i] + all.half[i], ends[0], ends[1]}) + all.half[i] / 5);
+    const double margin = (high[i] - low[i]) / 10;
+    bounds.setLow(i, std::min({low[i], ends[0], ends[1]}) - margin);
+    bounds.setHigh(i, std::max({high[i], ends[0], ends[1]}) + margin);
   }
   return bounds;
 }

@@ -9,14 +9,12 @@
 
 #include "apps/planner/rigid/motion_cell.h"
 #include "apps/planner/rigid/rigid_body.h"
+#include "apps/planner/rigid/swept_box.h"
 
 namespace nef::planner {
 
 /// Two nodes of trees of boxes: of the moving body, and of the other one.
 using NodePair = std::array<std::uint32_t, 2>;
-
-/// Are the boxes of two nodes apart during the whole part of a motion? In doubles with a proven bound: true is proved.
-bool boxes_apart(const MotionCell& cell, const RigidBody::Node& moving, const RigidBody::Node& fixed);
 
 /// Appends the pairs of children of two nodes of which one has some; the larger one is opened.
 void split(const NodePair& pair, const RigidBody::Node& moving, const RigidBody::Node& fixed,
@@ -27,12 +25,13 @@ void split(const NodePair& pair, const RigidBody::Node& moving, const RigidBody:
 template <typename Found>
 bool any_close_leaf(const MotionCell& cell, const RigidBody& moving, const RigidBody& fixed,
                     std::vector<NodePair> stack, Found&& found) {
+  SweptBoxes boxes(cell);
   while (!stack.empty()) {
     const NodePair pair = stack.back();
     stack.pop_back();
     const RigidBody::Node& a = moving.nodes()[pair[0]];
     const RigidBody::Node& b = fixed.nodes()[pair[1]];
-    if (boxes_apart(cell, a, b)) continue;
+    if (boxes.apart(a, b)) continue;
     if (!a.leaf || !b.leaf) {
       split(pair, a, b, stack);
     } else if (found(a.first, b.first)) {
@@ -55,12 +54,13 @@ template <typename LeafApart>
 std::vector<NodePair> nodes_not_apart(const MotionCell& cell, const RigidBody& moving, const RigidBody& fixed,
                                       std::vector<NodePair> stack, bool last, LeafApart&& leaf_apart) {
   std::vector<NodePair> rest;
+  SweptBoxes boxes(cell);
   while (!stack.empty()) {
     const NodePair pair = stack.back();
     stack.pop_back();
     const RigidBody::Node& a = moving.nodes()[pair[0]];
     const RigidBody::Node& b = fixed.nodes()[pair[1]];
-    if (boxes_apart(cell, a, b)) continue;
+    if (boxes.apart(a, b)) continue;
     if (a.leaf && b.leaf) {
       if (!leaf_apart(a.first, b.first)) rest.push_back(pair);
     } else if (!last && cell.position_spread + cell.turn_spread * a.reach > a.radius + b.radius) {

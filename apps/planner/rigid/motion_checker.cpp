@@ -30,15 +30,21 @@ class MotionExamination {
   MotionVerdict run() {
     if (!checker_.in_box(motion_.from().position)) return collision_outside(0);
     if (!checker_.in_box(motion_.to().position)) return collision_outside(1);
-    if (limits_.in_order) {
-      if (collides_at(0)) verdict_.free_until = 0;
-    } else if (collides_at(1) || collides_at(0)) {  // planners begin where nothing collides
+    // Planners begin where nothing collides: the other end comes first, and the start when it takes long.
+    if (collides_at(limits_.in_order ? 0 : 1)) {
+      if (limits_.in_order) verdict_.free_until = 0;
       return verdict_;
     }
-    if (verdict_.status == MotionVerdict::Status::kCollides) return verdict_;
     parts_.add({0, 1, 0, root()});
+    constexpr std::size_t kCellsBeforeStart = 16;
+    bool start_is_free = limits_.in_order;
     while (!parts_.empty()) {
       if (!examine(parts_.next())) return verdict_;
+      // If all parts are free, the start is, too.
+      const bool is_needed = verdict_.cells >= kCellsBeforeStart || (parts_.empty() && !verdict_.undecided.empty());
+      if (start_is_free || !is_needed) continue;
+      if (collides_at(0)) return verdict_;
+      start_is_free = true;
     }
     std::sort(verdict_.parts.begin(), verdict_.parts.end());
     if (!verdict_.undecided.empty()) {
@@ -61,25 +67,33 @@ class MotionExamination {
   [[nodiscard]] std::vector<Pair> root() const { return root_pair(checker_.robot_, checker_.obstacles_); }
 
   MotionVerdict collision_outside(double s) {
-    verdict_.status = MotionVerdict::Status::kCollides;
-    verdict_.pose = motion_.at(s);
-    verdict_.parameter = s;
+    tell_collision(s);
     verdict_.free_until = 0;
     return verdict_;
+  }
+
+  void tell_collision(double s) {
+    verdict_.status = MotionVerdict::Status::kCollides;
+    if (limits_.keep_pose) verdict_.pose = motion_.at(s);
+    verdict_.parameter = s;
+    verdict_.undecided.clear();
   }
 
   // False if the examination has ended.
   bool examine(const Part& part) {
     ++verdict_.cells;
-    const MotionCell cell = cells_.part(part.from, part.to);
     const bool last = part.depth >= limits_.depth || verdict_.cells >= limits_.max_cells;
+    // A whole motion is free more rarely than it collides in the middle.
+    const bool pose_first = part.depth == 0 && !limits_.in_order && !last;
+    if (pose_first && collides_at(part.middle(), part.open, false)) return false;
+    const MotionCell cell = cells_.part(part.from, part.to);
     std::vector<Pair> rest = cell.wide ? part.open : not_apart(part, cell, last);
     // A part that turns far has no images, so it is no part of a proof although there is nothing to hit.
     if (rest.empty() && !(limits_.keep_parts && cell.wide)) {
       if (limits_.keep_parts) verdict_.parts.push_back({part.from, part.to});
       return true;
     }
-    if (!limits_.in_order || last) {
+    if ((!limits_.in_order && !pose_first) || last) {
       if (collides_at(part.middle(), rest, last && exact_tests_ < limits_.max_exact)) {
         verdict_.free_until = part.from;
         return false;
@@ -100,6 +114,7 @@ class MotionExamination {
 
   // The pairs of nodes that are not proved to be apart in a part of the motion.
   std::vector<Pair> not_apart(const Part& part, const MotionCell& cell, bool last) {
+    placed_ = kNone;
     return nodes_not_apart(
         cell, checker_.robot_, checker_.obstacles_, part.open, last,
         [&](std::uint32_t robot, std::uint32_t obstacle) { return leaves_apart(part, cell, robot, obstacle); });
@@ -108,7 +123,7 @@ class MotionExamination {
   bool leaves_apart(const Part& part, const MotionCell& cell, std::uint32_t robot, std::uint32_t obstacle) {
     const RigidBody::Piece& a = checker_.robot_.pieces()[robot];
     const RigidBody::Piece& b = checker_.obstacles_.pieces()[obstacle];
-    place(a, cell, rough_robot_);
+    place_robot(robot, cell);
     const Separation separation = plane_between(rough_robot_, checker_.rough_obstacles_[obstacle]);
     if (separation == Separation::kApart) return true;
     if (separation != Separation::kPerhaps || exact_tests_ >= limits_.max_exact) return false;
@@ -125,11 +140,10 @@ class MotionExamination {
   // `exact`, else taken for free.
   bool collides_at(double s, const std::vector<Pair>& pairs, bool exact) {
     const MotionCell cell = cells_.pose(s);
+    placed_ = kNone;
     return any_close_leaf(cell, checker_.robot_, checker_.obstacles_, pairs, [&](std::uint32_t a, std::uint32_t b) {
       if (!collide(s, cell, a, b, exact)) return false;
-      verdict_.status = MotionVerdict::Status::kCollides;
-      verdict_.pose = motion_.at(s);
-      verdict_.parameter = s;
+      tell_collision(s);
       verdict_.robot_piece = a;
       verdict_.obstacle_piece = b;
       return true;
@@ -139,9 +153,10 @@ class MotionExamination {
   bool collide(double s, const MotionCell& cell, std::uint32_t robot, std::uint32_t obstacle, bool exact) {
     const RigidBody::Piece& a = checker_.robot_.pieces()[robot];
     const RigidBody::Piece& b = checker_.obstacles_.pieces()[obstacle];
-    place(a, cell, rough_robot_);
+    place_robot(robot, cell);
     if (plane_between(rough_robot_, checker_.rough_obstacles_[obstacle]) == Separation::kApart) return false;
     keep_face_normals(a, cell, rough_robot_);
+    placed_ = kNone;
     const bool between = s != 0 && s != 1;
     const double slack = between ? cells_.position_error() : 0;
     if (overlap(a, rough_robot_, b, slack) == Separation::kOverlapping) return true;
@@ -152,6 +167,15 @@ class MotionExamination {
     return !hulls_are_apart(placed, b.mesh.vertices, checker_.closed(a, b));
   }
 
+  // Pairs come by pieces of the robot, mostly.
+  void place_robot(std::uint32_t robot, const MotionCell& cell) {
+    if (robot == placed_) return;
+    place(checker_.robot_.pieces()[robot], cell, rough_robot_);
+    placed_ = robot;
+  }
+
+  static constexpr std::uint32_t kNone = ~0U;
+
   const MotionChecker& checker_;
   const RigidMotion& motion_;
   MotionCells cells_;
@@ -160,6 +184,7 @@ class MotionExamination {
   std::size_t exact_tests_ = 0;
   MotionVerdict verdict_;
   RoughPolytope rough_robot_;
+  std::uint32_t placed_ = kNone;  // the piece that it is, in the cell that is looked at
 };
 
 MotionChecker::MotionChecker(RigidBody robot, RigidBody obstacles, ContactRule contact,

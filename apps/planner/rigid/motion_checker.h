@@ -53,6 +53,7 @@ struct CheckLimits {
   /// The default order finds collisions sooner.
   bool in_order = false;
   bool keep_parts = false;  ///< fill MotionVerdict::parts
+  bool keep_pose = true;    ///< fill MotionVerdict::pose, which takes exact numbers
 
   /// Fewer parts: planners reject what takes long.
   [[nodiscard]] static CheckLimits for_planners() {
@@ -86,7 +87,8 @@ class MotionChecker {
 
   /// Exact. For a collision the verdict says where; it is never kUndecided.
   [[nodiscard]] MotionVerdict check(const RigidPose& pose) const;
-  /// Never wrong; kUndecided if the limits are reached. Both ends are checked first.
+  /// Never wrong; kUndecided if the limits are reached. Both ends are checked exactly, unless the motion is decided
+  /// before.
   [[nodiscard]] MotionVerdict check(const RigidMotion& motion, const CheckLimits& limits = {}) const;
 
   /// What it was made of.

@@ -90,41 +90,58 @@ RigidBody::RigidBody(std::vector<Piece> pieces) : pieces_(std::move(pieces)) {
 }
 
 void RigidBody::build(std::uint32_t node, std::span<std::uint32_t> members) {
-  Vector3d low = Vector3d::Constant(HUGE_VAL);
-  Vector3d high = Vector3d::Constant(-HUGE_VAL);
+  std::vector<Vector3d> points;
   for (const std::uint32_t member : members) {
-    for (const Vector3d& p : pieces_[member].points) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
+    points.insert(points.end(), pieces_[member].points.begin(), pieces_[member].points.end());
   }
-  Node made;
-  made.centre = (low + high) / 2;
-  // The halves of the extent, and what rounding of the corners, the centre and these themselves may take from them.
-  const Vector3d largest = low.cwiseAbs().cwiseMax(high.cwiseAbs());
-  made.half = (high - low) / 2 + 0x1p-50 * largest;
-  made.reach = largest.lpNorm<1>() * (1 + 0x1p-48);
-  made.radius = made.half.norm();
-  made.leaf = members.size() == 1;
-  made.first = made.leaf ? members.front() : static_cast<std::uint32_t>(nodes_.size());
-  nodes_[node] = made;
-  if (made.leaf) return;
-  Eigen::Index axis = 0;
-  made.half.maxCoeff(&axis);
-  const auto place = [&](std::uint32_t member) {
-    double low_end = HUGE_VAL;
-    double high_end = -HUGE_VAL;
-    for (const Vector3d& p : pieces_[member].points) {
-      low_end = std::min(low_end, p[axis]);
-      high_end = std::max(high_end, p[axis]);
-    }
-    return low_end + high_end;
+  OrientedBox box = box_around(points, Eigen::Matrix3d::Identity());
+  const auto take_if_smaller = [&](const Eigen::Matrix3d& axes) {
+    const OrientedBox other = box_around(points, axes);
+    if (other.size() < box.size()) box = other;
   };
+  if (members.size() > 1) {
+    take_if_smaller(axes_of_scatter(points));
+    nodes_[node].box = box;
+    split(node, members);
+    for (const std::uint32_t child : {0U, 1U}) take_if_smaller(nodes_[nodes_[node].first + child].box.axes);
+  } else {
+    const Piece& piece = pieces_[members.front()];
+    for (std::size_t f = 0; f < piece.normals.size(); ++f) {
+      std::vector<Vector3d> ring;
+      for (const std::uint32_t corner : piece.mesh.face(f)) ring.push_back(points[corner]);
+      take_if_smaller(axes_of_polygon(ring, piece.normals[f]));
+    }
+    if (piece.normals.empty()) take_if_smaller(axes_of_scatter(points));
+    nodes_[node].first = members.front();
+  }
+  Node& made = nodes_[node];
+  made.box = box;
+  made.leaf = members.size() == 1;
+  made.radius = box.half.norm() * (1 + 0x1p-40);
+  made.reach = (box.centre.lpNorm<1>() + (box.axes.cwiseAbs() * box.half).sum()) * (1 + 0x1p-40);
+}
+
+// In the middle of the longest extent of the node's box.
+void RigidBody::split(std::uint32_t node, std::span<std::uint32_t> members) {
+  Eigen::Index longest = 0;
+  nodes_[node].box.half.maxCoeff(&longest);
+  const Vector3d axis = nodes_[node].box.axes.col(longest);
+  std::vector<double> places(pieces_.size());
+  for (const std::uint32_t member : members) {
+    double low = HUGE_VAL;
+    double high = -HUGE_VAL;
+    for (const Vector3d& p : pieces_[member].points) {
+      low = std::min(low, axis.dot(p));
+      high = std::max(high, axis.dot(p));
+    }
+    places[member] = low + high;
+  }
   const std::size_t half = members.size() / 2;
   std::nth_element(members.begin(), members.begin() + static_cast<std::ptrdiff_t>(half), members.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return std::pair(place(a), a) < std::pair(place(b), b); });
+                   [&](std::uint32_t a, std::uint32_t b) { return std::pair(places[a], a) < std::pair(places[b], b); });
+  const auto first = static_cast<std::uint32_t>(nodes_.size());
+  nodes_[node].first = first;
   nodes_.resize(nodes_.size() + 2);
-  const std::uint32_t first = made.first;
   build(first, members.subspan(0, half));
   build(first + 1, members.subspan(half));
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/planner/free_space/vectors.h"
+#include "apps/planner/rigid/oriented_box.h"
 #include "nef/base/monitor.h"
 #include "nef/forward.h"
 #include "nef/mesh/mesh.h"
@@ -26,10 +27,9 @@ class RigidBody {
     double reach = 0;               ///< no |x| + |y| + |z| of a vertex is larger
     double diameter = 0;            ///< no two vertices are farther apart
   };
-  /// A node of the tree: the box centre +- half holds its pieces. Node 0 is the root.
+  /// A node of the tree: the box holds its pieces. Node 0 is the root.
   struct Node {
-    Vector3d centre = Vector3d::Zero();
-    Vector3d half = Vector3d::Zero();
+    OrientedBox box;
     double reach = 0;         ///< no |x| + |y| + |z| of a point of the box is larger
     double radius = 0;        ///< half the diagonal of the box
     std::uint32_t first = 0;  ///< the first of two children, or the piece of a leaf
@@ -53,6 +53,7 @@ class RigidBody {
  private:
   explicit RigidBody(std::vector<Piece> pieces);
   void build(std::uint32_t node, std::span<std::uint32_t> members);
+  void split(std::uint32_t node, std::span<std::uint32_t> members);
 
   std::vector<Piece> pieces_;
   std::vector<Node> nodes_;

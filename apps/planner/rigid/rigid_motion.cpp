@@ -15,10 +15,19 @@ Double4 rounded(const Quaternion& q) {
   return {nearest_double(q[0]), nearest_double(q[1]), nearest_double(q[2]), nearest_double(q[3])};
 }
 
+// A product or a sum of four products of rounded components no larger than 1.01 is off by less than this.
+constexpr double kProductError = 0x1p-48;
+
+double rounded_product(const Double4& p, const Double4& q) {
+  return p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
+}
+
 double length_of(const Double4& q) { return std::hypot(std::hypot(q[0], q[1]), std::hypot(q[2], q[3])); }
 
 // The quaternion with a length near 1. One that is near 1 already stays as it is, so that numbers stay short.
 Quaternion scaled(const Quaternion& q) {
+  const Double4 near = rounded(q);
+  if (std::fabs(rounded_product(near, near) - 1) < 0x1p-20 - kProductError) return q;
   Rational largest = 0;
   for (const Rational& x : q) largest = std::max(largest, Rational(abs(x)));
   if (largest == 0) throw InputError("a rotation's quaternion must not be zero");
@@ -40,7 +49,12 @@ double angle_between(const Double4& p, const Double4& q) {
   return 2 * std::asin(std::min(1.0, length_of(chord) / 2));
 }
 
-bool same_rotation(const Quaternion& p, const Quaternion& q) {
+bool same_rotation(const Quaternion& p, const Quaternion& q, const Double4& near_p, const Double4& near_q) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = i + 1; j < 4; ++j) {
+      if (std::fabs(near_p[i] * near_q[j] - near_p[j] * near_q[i]) > kProductError) return false;
+    }
+  }
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = i + 1; j < 4; ++j) {
       if (p[i] * q[j] != p[j] * q[i]) return false;
@@ -77,14 +91,17 @@ RigidMotion::RigidMotion(RigidPose from, RigidPose to, MotionTiming timing)
     : from_(std::move(from)), to_(std::move(to)), timing_(timing) {
   from_.quaternion = scaled(from_.quaternion);
   to_.quaternion = scaled(to_.quaternion);
-  turns_ = !same_rotation(from_.quaternion, to_.quaternion);
+  const Double4 p = rounded(from_.quaternion);
+  Double4 q = rounded(to_.quaternion);
+  turns_ = !same_rotation(from_.quaternion, to_.quaternion, p, q);
+  const double product = rounded_product(p, q);
   if (!turns_) {
     to_.quaternion = from_.quaternion;
-  } else if (scalar_product(from_.quaternion, to_.quaternion) < 0) {
+    q = p;
+  } else if (std::fabs(product) > kProductError ? product < 0 : scalar_product(from_.quaternion, to_.quaternion) < 0) {
     for (Rational& x : to_.quaternion) x = -x;
+    for (double& x : q) x = -x;
   }
-  const Double4 p = rounded(from_.quaternion);
-  const Double4 q = rounded(to_.quaternion);
   angle_ = angle_between(p, q);
   from_length_ = length_of(p);
   to_length_ = length_of(q);
@@ -110,6 +127,8 @@ double RigidMotion::time_of(double s) const {
 }
 
 RigidPose RigidMotion::at(double s) const {
+  if (s == 0) return from_;
+  if (s == 1) return to_;
   const Rational time = exact_rational(time_of(s));
   RigidPose pose;
   pose.quaternion = quaternion(exact_rational(s));

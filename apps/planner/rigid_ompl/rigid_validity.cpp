@@ -68,6 +68,7 @@ bool RigidStateValidityChecker::isValid(const ob::State* state) const {
 RigidMotionValidator::RigidMotionValidator(const ob::SpaceInformationPtr& si,
                                            std::shared_ptr<const MotionChecker> checker, CheckLimits limits)
     : ob::MotionValidator(si), checker_(std::move(checker)), limits_(limits) {
+  limits_.keep_pose = false;
   require_rigid(*si);
 }
 

@@ -9,7 +9,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "apps/view/page.h"
-#include "apps/view/picture.h"
 #include "apps/visual_hull/color/vertex_colors.h"
 #include "apps/visual_hull/command/overlay.h"
 #include "apps/visual_hull/texture/hull_texture.h"
@@ -207,8 +206,8 @@ void write_page(const Result& result, PixelOrigin origin, const fs::path& file, 
 }
 
 void write_hull_picture(const Result& result, PixelOrigin origin, const fs::path& file, const nef::Monitor& monitor,
-                        HullColors colors) {
-  nef::view::write_picture({hull_layer(result, origin, monitor, colors)}, file.string());
+                        HullColors colors, const nef::view::PictureOptions& options) {
+  nef::view::write_picture({hull_layer(result, origin, monitor, colors)}, file.string(), options);
 }
 
 }  // namespace nef::visual_hull

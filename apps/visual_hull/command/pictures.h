@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "apps/view/layer.h"
+#include "apps/view/picture.h"
 #include "apps/visual_hull/visual_hull.h"
 
 namespace nef::visual_hull {
@@ -28,6 +29,6 @@ void write_page(const Result& result, PixelOrigin origin, const std::filesystem:
 
 /// Draws the hull alone into a PNG file. Throws nef::Error if the file cannot be written.
 void write_hull_picture(const Result& result, PixelOrigin origin, const std::filesystem::path& file,
-                        const nef::Monitor& monitor, HullColors colors);
+                        const nef::Monitor& monitor, HullColors colors, const nef::view::PictureOptions& options = {});
 
 }  // namespace nef::visual_hull

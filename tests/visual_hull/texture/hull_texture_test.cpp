@@ -96,14 +96,14 @@ double error_of_ellipsoid(const Rig& rig, const std::function<double(std::size_t
 
 TEST_CASE("The texture of a hull is that of the thing in the photographs") {
   double unseen = 1;
-  CHECK(error_of_ellipsoid(kSmall, {}, unseen) < 8);
+  CHECK(error_of_ellipsoid(kSmall, {}, unseen) < 2);
   CHECK(unseen < 0.02);
 }
 
 TEST_CASE("Photographs of different exposures are levelled") {
   double unseen = 1;
   const auto exposure = [](std::size_t view) { return view % 2 == 0 ? 0.9 : 1.1; };
-  CHECK(error_of_ellipsoid(kSmall, exposure, unseen) < 11);
+  CHECK(error_of_ellipsoid(kSmall, exposure, unseen) < 4);
 }
 
 // Both triangles of each cell of a grid on each side of a box, and their colours.
@@ -155,7 +155,7 @@ TEST_CASE("What another part hides from a view is not in its texture, whatever t
     ++count;
   });
   CHECK(count > 1000);
-  CHECK(sum / static_cast<double>(count) < 8);
+  CHECK(sum / static_cast<double>(count) < 3);
   CHECK(wrong * 100 < count);
   CHECK(texture.unseen > 0);
   const HullTexture again = hull_texture(mesh, result.views, result.origin, nef::Monitor().on_threads(2));

@@ -123,13 +123,13 @@ TEST_CASE("Pages and pictures show colours and textures") {
   CHECK_FALSE(layer.surface.has_image());
   const auto textured = page_layers(result, result.origin, {}, HullColors::kTexture)[0];
   CHECK(textured.surface.places.size() == 3 * textured.scene.triangles.size());
-  write_hull_picture(result, result.origin, file, {}, HullColors::kTexture);
+  write_hull_picture(result, result.origin, file, {}, HullColors::kTexture, {.from = {}, .width = 240, .height = 180});
   // The picture shows the ellipsoid's colours in the middle, from where it is taken.
   const cv::Mat picture = cv::imread(file);
-  REQUIRE(picture.size() == cv::Size(1200, 900));
+  REQUIRE(picture.size() == cv::Size(240, 180));
   const testing::Vec from{5.5, -7.5, 4.2};
   const Color truth = testing::ellipsoid({1.3, 0.9, 1.1})(from, {-from[0], -from[1], -from[2]}).second;
-  const cv::Vec3b middle = picture.at<cv::Vec3b>(450, 600);
+  const cv::Vec3b middle = picture.at<cv::Vec3b>(90, 120);
   for (std::size_t c = 0; c < 3; ++c) CHECK(std::abs(middle[2 - static_cast<int>(c)] - truth[c]) < 25);
 }
 

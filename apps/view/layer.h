@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/view/image.h"
 #include "apps/view/scene.h"
 
 namespace nef::view {
@@ -41,6 +42,19 @@ struct Photo {
   std::string bytes;               ///< the file
 };
 
+/// Colours of the facets of a scene in place of those of its volumes: of each vertex, or an image. They are shown as
+/// they are, without light and shade. Pages and pictures only.
+struct SurfaceColors {
+  std::vector<Color> vertices;  ///< of each vertex of the scene, interpolated over triangles; or none
+  Image image;                  ///< or an image; of width 0: none
+  /// For each corner of each triangle its place in the image, from (0, 0) at the lower left to (1, 1) at the upper
+  /// right.
+  std::vector<std::array<float, 2>> places;
+
+  [[nodiscard]] bool has_image() const { return image.width > 0; }
+  [[nodiscard]] bool none() const { return vertices.empty() && !has_image(); }
+};
+
 struct Layer {
   std::string name;
   Scene scene;
@@ -50,6 +64,7 @@ struct Layer {
   Motion motion;
   std::vector<Polyline> lines;
   std::vector<Photo> photos;
+  SurfaceColors surface = {};
 };
 
 /// The colours of a layer's items.

@@ -42,8 +42,10 @@ class PictureBuilder {
     for (const SceneVertex& vertex : layer.scene.vertices) projected_.push_back(camera_.project(vertex.position));
     for (std::size_t f = 0; f < layer.scene.facets.size(); ++f) add_facet(layer, colors, f);
     const double length = mean_length(layer.scene);
-    for (const SceneEdge& edge : layer.scene.edges) add_edge(edge, length);
-    for (std::uint32_t v = 0; v < layer.scene.vertices.size(); ++v) add_vertex(layer.scene, v, length);
+    if (layer.surface.none()) {  // else lines and dots would cover its colours
+      for (const SceneEdge& edge : layer.scene.edges) add_edge(edge, length);
+      for (std::uint32_t v = 0; v < layer.scene.vertices.size(); ++v) add_vertex(layer.scene, v, length);
+    }
     if (layer.scene.box) add_box(*layer.scene.box);
     for (const Polyline& line : layer.lines) {
       for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
@@ -118,6 +120,7 @@ class PictureBuilder {
     const Color base = side.volume == kArtificial ? colors.layer : colors.volumes[side.volume];
     const double light = 0.55 + 0.36 * std::max(dot(facing, kLight), 0.0) + 0.14 * std::max(facing[2], 0.0);
     const Color color = shaded(base, light * (side.inner ? 0.8 : 1.0));
+    const bool own_colors = !layer.surface.none() && !side.inner && facet.origin == Origin::kOwn;
     for (std::uint32_t t = facet.first_triangle; t < facet.first_triangle + facet.triangle_count; ++t) {
       const auto& [a, b, c] = scene.triangles[t];
       triangles_.push_back({{projected_[a], projected_[b], projected_[c]},
@@ -125,6 +128,7 @@ class PictureBuilder {
                             fill_of(facet),
                             static_cast<float>(layer.opacity),
                             facet_count_ + static_cast<std::uint32_t>(f)});
+      if (own_colors) triangles_.back().surface = {&layer.surface, {a, b, c}, 3 * t};
     }
   }
 

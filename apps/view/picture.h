@@ -24,7 +24,8 @@ struct PictureOptions {
 /// Draws the visible layers in perspective, as large as they fit, on white. Facets by a depth buffer with nine samples
 /// a pixel; edges of the complex (not of the triangulation) and vertices where no facet hides them; transparent layers
 /// are blended in order of depth. Selected and unselected items look as on the pages. Photos are not drawn, their lines
-/// are. Throws InputError for a size of zero or above 16384 and a direction of length zero.
+/// are. A layer with colours of its surface is drawn without edges and
+/// vertices. Throws InputError for a size of zero or above 16384 and a direction of length zero.
 /// O(n + samples covered), and about 20 bytes of memory for each sample of a band of at most 16 million.
 Image draw_picture(const std::vector<Layer>& layers, const PictureOptions& options = {});
 

@@ -124,14 +124,15 @@ class BoundaryWriter {
     refuse_unless_lenient("");
   }
 
-  /// Gives the vertices the colours that the options have for them.
+  /// Gives the vertices the colours, or the faces the texture, that the options have for them.
   void color(const Mesh& mesh) {
-    if (!options_.vertex_colors) return;
+    if (!options_.vertex_colors && !options_.texture) return;
     Mesh in_place = mesh;
     for (Rational3& p : in_place.vertices) {
       for (std::size_t i = 0; i < 3; ++i) p[i] += file_.offset[i];
     }
-    file_.vertex_colors = options_.vertex_colors(in_place);
+    if (options_.vertex_colors) file_.vertex_colors = options_.vertex_colors(in_place);
+    if (options_.texture && mesh.face_count() > 0) file_.texture = options_.texture(in_place);
   }
 
   WrittenFile write(const Mesh& mesh) {
@@ -208,7 +209,7 @@ struct WrittenBoundary {
 MeshExport exported(const Polyhedron& polyhedron, const PolyhedronWriteOptions& options, const BoundaryGroups* groups,
                     BoundaryWriter& writer) {
   MeshExportOptions export_options;
-  export_options.keep_polygons = writer.format().has(kPolygons);
+  export_options.keep_polygons = writer.format().has(kPolygons) && !options.texture;
   export_options.only_quads = !options.polygons;
   export_options.lower_dimensional = true;
   // Where the mesh is moved, its polygons stay planar only if all else of it is written as it is, too.

@@ -40,6 +40,8 @@ struct PolyhedronWriteOptions {
   bool recenter = false;  ///< subtract middle_of_few_digits from the coordinates, so that few digits are lost
   /// Red, green and blue for the vertices of the mesh that goes to a file; PLY and GLB only.
   std::function<std::vector<std::array<std::uint8_t, 3>>(const Mesh&)> vertex_colors = {};
+  /// The texture of the mesh that goes to a file, which then has triangles only; OBJ, PLY and GLB only.
+  std::function<MeshTexture(const Mesh&)> texture = {};
   std::string format = {};  ///< instead of the extension of the path, which may be none
   Monitor monitor = {};     ///< cancellation, progress, counters; its referents must outlive the call
 };

@@ -20,7 +20,7 @@ Progress = Optional[Callable[[str, str, int, int], object]]
 #: the board that is used if none is named
 USUAL_BOARD = "charuco:7x5,30mm,22mm,DICT_5X5"
 
-__all__ = ["CalibratedView", "Calibration", "Hull", "Masks", "RefinedView", "Refinement", "USUAL_BOARD", "View", "board",
+__all__ = ["CalibratedView", "Calibration", "Hull", "Masks", "RefinedView", "Refinement", "Texture", "USUAL_BOARD", "View", "board",
            "calibrate", "compute", "masks", "read", "refine"]
 
 
@@ -47,6 +47,25 @@ class View(NamedTuple):
         return None if not self.area else 1 - self.difference / self.area
 
 
+class Texture(NamedTuple):
+    """An image on the surface of a hull, from the photographs."""
+
+    #: the corners of the hull's triangles, of shape (N, 3), rounded to single precision, which all formats keep
+    vertices: Any
+    #: three indices of vertices for each, of shape (M, 3)
+    triangles: Any
+    #: where the three corners of each triangle are in the image, of shape (M, 3, 2): from (0, 0) at the lower left to (1, 1)
+    places: Any
+    #: red, green and blue, of shape (H, W, 3)
+    image: Any
+    #: the share of the surface that no view sees; it has the colours of its neighbours
+    unseen: float
+
+    def write(self, path: Any) -> None:
+        """Writes mesh and texture: .glb, or .obj or .ply, whose image is a file beside them (NAME_texture.png)."""
+        _visual_hull.write_textured(os.fspath(path), self.vertices, self.triangles, self.places, self.image)
+
+
 class Hull(NamedTuple):
     """A visual hull."""
 
@@ -66,6 +85,8 @@ class Hull(NamedTuple):
     suspects: Sequence[str] = ()
     #: a Refinement, if the cameras were refined
     refinement: Optional["Refinement"] = None
+    #: a Texture, if there are photographs and it was wished for
+    texture: Optional[Texture] = None
 
 
 _OPTIONS = dict(box=None, tolerance=0, outer=False, min_area=0, half_pixels=False, unknown_beyond=False, images=None,
@@ -82,7 +103,8 @@ def _hull(answer):
         warnings.warn(note, InputWarning, stacklevel=3)
     refinement = answer["refinement"]
     return Hull(answer["hull"], [View(*view) for view in answer["views"]], answer["box"], answer["vanished"],
-                answer["notes"], answer["pieces"], answer["suspects"], refinement and _refinement(refinement))
+                answer["notes"], answer["pieces"], answer["suspects"], refinement and _refinement(refinement),
+                answer["texture"] and Texture(*answer["texture"]))
 
 
 def _files(files):
@@ -108,7 +130,7 @@ def _told(error, names):
 
 def compute(masks: Sequence[Any], cameras: Sequence[Any], names: Optional[Sequence[str]] = None, *, box: Any = None,
             tolerance: float = 0, outer: bool = False, min_area: float = 0, half_pixels: bool = False,
-            unknown_beyond: bool = False, lens: Any = None, suspects: bool = False, drop_suspects: bool = False,
+            unknown_beyond: bool = False, lens: Any = None, photographs: Optional[Sequence[Any]] = None, suspects: bool = False, drop_suspects: bool = False,
             at_least: Optional[int] = None, largest: bool = False, verify: bool = True, threads: int = 1,
             progress: Progress = None) -> Hull:
     """The visual hull of masks.
@@ -125,6 +147,7 @@ def compute(masks: Sequence[Any], cameras: Sequence[Any], names: Optional[Sequen
     - unknown_beyond: keep, instead of carving, what lies beyond the frame of an image
     - lens: the distortion that the masks have, (K, coefficients) as OpenCV has them, or one such pair per mask;
       the matrices are those of the undistorted images
+    - photographs: arrays of shape (H, W, 3), one for each mask, from which `texture` of the result is made
     - suspects: compare the views, for `suspects`; drop_suspects: leave out the one that disagrees, and so on
     - at_least: the points in at least this many silhouettes, instead of in all; not verified
     - largest: keep the piece of the largest volume only
@@ -139,22 +162,37 @@ def compute(masks: Sequence[Any], cameras: Sequence[Any], names: Optional[Sequen
     names = [f"view {i}" for i in range(len(masks))] if names is None else [str(name) for name in names]
     if not len(masks) == len(cameras) == len(names):
         raise InputError(f"{len(masks)} masks need as many cameras and names, not {len(cameras)} and {len(names)}")
+    if photographs is not None:
+        shapes = [numpy.shape(photograph) for photograph in photographs]
+        if shapes != [(*mask.shape, 3) for mask in masks]:
+            raise InputError("each mask of shape (H, W) needs a photograph of shape (H, W, 3)")
     lenses = None if lens is None else _lenses(lens, len(masks))
     options = _options(box=box, tolerance=tolerance, outer=outer, min_area=min_area, half_pixels=half_pixels,
                        unknown_beyond=unknown_beyond, suspects=suspects, drop_suspects=drop_suspects, at_least=at_least,
                        largest=largest, verify=verify, threads=threads)
     with tempfile.TemporaryDirectory() as folder:
-        images = []
-        for i, mask in enumerate(masks):
-            images.append(os.path.join(folder, f"{i}.png"))
-            _visual_hull.write_mask((mask != 0).astype(numpy.uint8), images[-1])
+        images = _written(masks, photographs, folder)
         try:
-            hull = _hull(_visual_hull.from_views(names, images, cameras, lenses, folder, options, progress))
+            hull = _hull(_visual_hull.from_views(names, images, cameras, lenses, folder, options, photographs is not None,
+                                                 progress))
         except InputError as error:
             for image, name in zip(images, names):
                 error.args = (str(error).replace(image, f"the mask of {name}"),)
             raise _told(error, names) from None
     return hull._replace(views=[view._replace(image="") for view in hull.views])
+
+
+def _written(masks, photographs, folder):
+    """Writes masks into `folder`/masks and photographs, if any, into `folder`/images; the files of the masks."""
+    images = []
+    for sub in ("masks", "images"):
+        os.mkdir(os.path.join(folder, sub))
+    for i, mask in enumerate(masks):
+        images.append(os.path.join(folder, "masks", f"{i}.png"))
+        _visual_hull.write_mask((mask != 0).astype(numpy.uint8), images[-1])
+        if photographs is not None:
+            _visual_hull.write_photograph(numpy.asarray(photographs[i], numpy.uint8), os.path.join(folder, "images", f"{i}.png"))
+    return images
 
 
 def _lenses(lens, count):
@@ -171,7 +209,7 @@ def read(path: Any, *, box: Any = None, tolerance: float = 0, outer: bool = Fals
          matrices: Optional[str] = None, up: Optional[str] = None, turntable: Optional[int] = None,
          intrinsics: Optional[Sequence[float]] = None, radius: Optional[float] = None, height: float = 0,
          refine: bool = False, suspects: bool = False, drop_suspects: bool = False, at_least: Optional[int] = None,
-         largest: bool = False, way: str = "best", verify: bool = True, threads: int = 1,
+         largest: bool = False, way: str = "best", texture: bool = False, verify: bool = True, threads: int = 1,
          progress: Progress = None) -> Hull:
     """The visual hull of a scene: a file or folder of cameras and images in any format that `visual_hull` reads (JSON,
     NeRF's transforms.json, COLMAP, Middlebury, matrices); arguments as in compute, and:
@@ -188,13 +226,19 @@ def read(path: Any, *, box: Any = None, tolerance: float = 0, outer: bool = Fals
     - repair_masks: correct pixels of these masks that the other views contradict; `notes` report each change
     - refine: correct the cameras by the silhouettes first, as in `refine`
     - way: "direct" (vertex by vertex), "cones", or "best", whichever suits the views; the hull is the same
+    - texture: make `texture` of the result from the photographs: the images themselves, or for masks/NAME those of the same
+      names in images/
     """
     options = _options(box=box, tolerance=tolerance, outer=outer, min_area=min_area, half_pixels=half_pixels,
                        unknown_beyond=unknown_beyond, images=None if images is None else os.fspath(images), mask=mask,
                        threshold=threshold, channel=channel, invert=invert, way=way, repair_masks=repair_masks, refine=refine, suspects=suspects, drop_suspects=drop_suspects,
                        at_least=at_least, largest=largest, verify=verify, threads=threads)
     table = None if turntable is None else (turntable, intrinsics, radius, height)
-    return _hull(_visual_hull.from_file(os.fspath(path), options, matrices or "", up or "", table, progress))
+    try:
+        return _hull(_visual_hull.from_file(os.fspath(path), options, matrices or "", up or "", table, texture, progress))
+    except InputError as error:
+        error.args = (str(error).replace("--texture", "texture"),)
+        raise
 
 
 class RefinedView(NamedTuple):

@@ -267,6 +267,26 @@ def test_visual_hull(needs):
         visual_hull.compute([mask, 0 * mask, mask], cameras, box=((-2, -2, -2), (2, 2, 2)))
 
 
+def test_texture_of_photographs(needs, tmp_path):
+    visual_hull = needs("visual_hull")
+    masks, cameras = turntable_of_balls(6, shape=(100, 120), focal=150)
+    photographs = [numpy.full((*mask.shape, 3), (200, 100, 50), numpy.uint8) for mask in masks]
+    hull = visual_hull.compute(masks, cameras, tolerance=1, photographs=photographs, verify=False)
+    texture = hull.texture
+    assert texture.triangles.shape[1:] == (3,) and texture.places.shape == (*texture.triangles.shape, 2)
+    assert texture.places.min() >= 0 and texture.places.max() <= 1 and 0 <= texture.unseen < 0.5
+    assert abs(texture.image.astype(int) - (200, 100, 50)).max() <= 1
+    for name in ("hull.glb", "hull.obj", "hull.ply"):
+        texture.write(tmp_path / name)
+        assert nef.read(tmp_path / name).bounding_box() is not None
+    assert {"hull.mtl", "hull_texture.png"} <= {file.name for file in tmp_path.iterdir()}
+    with pytest.raises(nef.InputError, match="OBJ, PLY or GLB"):
+        texture.write(tmp_path / "hull.stl")
+    with pytest.raises(nef.InputError, match="photograph of shape"):
+        visual_hull.compute(masks, cameras, photographs=photographs[1:])
+    assert visual_hull.compute(masks, cameras, tolerance=1, verify=False).texture is None
+
+
 def turntable_of_balls(count, focal=300, distance=4, shape=(200, 240)):
     """Masks and cameras of a few balls on a turntable."""
     balls = [((0, 0, 0), .5), ((.5, .2, .3), .3), ((-.3, .5, -.3), .35), ((.1, -.6, .2), .25), ((.2, .1, .7), .2)]

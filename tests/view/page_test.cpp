@@ -138,6 +138,25 @@ TEST_CASE("coordinates far from the origin keep their shape, and texts can be le
   CHECK_FALSE(parse(page_scene(layers, options)).json["layers"][0].contains("exact"));
 }
 
+TEST_CASE("a page holds the colours of a surface, of vertices or as an image") {
+  std::vector<Layer> layers{layer_of("cube", cube(0, 2))};
+  CHECK_FALSE(parse(page_scene(layers)).json["layers"][0].contains("surface"));
+  for (std::size_t v = 0; v < 8; ++v) layers[0].surface.vertices.push_back({static_cast<std::uint8_t>(v), 2, 3});
+  const ParsedScene painted = parse(page_scene(layers));
+  const auto rgb = painted.array<std::uint8_t>(painted.json["layers"][0]["surface"]["rgb"]);
+  REQUIRE(rgb.size() == 24);
+  CHECK(rgb[3 * 5] == 5);
+  layers[0].surface = {};
+  layers[0].surface.image = {1, 1, {9, 8, 7}};
+  layers[0].surface.places.assign(36, {0.25F, 0.75F});
+  const ParsedScene textured = parse(page_scene(layers));
+  const Json& surface = textured.json["layers"][0]["surface"];
+  CHECK(textured.array<float>(surface["places"])[71] == 0.75F);
+  const std::string url = surface["url"];
+  CHECK(url.starts_with("data:image/png;base64,"));
+  CHECK(from_base64(url.substr(22)) == png_bytes(layers[0].surface.image));
+}
+
 TEST_CASE("a written page is whole and needs no network") {
   if (!has_viewer_bundle()) {
     CHECK_THROWS_AS(write_page({}, "unused.html"), UnsupportedError);

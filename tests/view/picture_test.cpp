@@ -59,6 +59,38 @@ TEST_CASE("a cube from the front shows one facet in the middle, and no edge behi
   CHECK(count(image, kInk) > 300);
 }
 
+// Left half red, right half blue, by the place of each corner in the image.
+SurfaceColors halves(const Scene& scene) {
+  SurfaceColors surface;
+  surface.image = {2, 1, {255, 0, 0, 0, 0, 255}};
+  for (const auto& triangle : scene.triangles) {
+    for (const std::uint32_t v : triangle) {
+      surface.places.push_back({static_cast<float>(scene.vertices[v].position[0] / 2), 0.5F});
+    }
+  }
+  return surface;
+}
+
+TEST_CASE("colours of a surface are drawn as they are, without edges") {
+  Layer layer = layer_of("cube", cube(0, 2));
+  PictureOptions options;
+  options.from = Point{0, -1, 0};
+  options.width = options.height = 300;
+  layer.surface = halves(layer.scene);
+  const Image image = draw_picture({layer}, options);
+  CHECK(near(pixel(image, 100, 150), {255, 0, 0}, 1));
+  CHECK(near(pixel(image, 200, 150), {0, 0, 255}, 1));
+  CHECK(count(image, kInk) == 0);
+
+  layer.surface = {};
+  for (const SceneVertex& vertex : layer.scene.vertices) {
+    layer.surface.vertices.push_back(vertex.position[2] > 1 ? Color{0, 250, 0} : Color{0, 50, 0});
+  }
+  const Image shaded = draw_picture({layer}, options);
+  CHECK(near(pixel(shaded, 150, 150), {0, 150, 0}, 3));
+  CHECK(pixel(shaded, 150, 80)[1] > pixel(shaded, 150, 220)[1] + 60);
+}
+
 TEST_CASE("edges of the complex are drawn, those of the triangulation are not") {
   // Seen along the hole: the triangulation of the upper facet would leave lines from the outer square to the inner.
   const Image image = draw(frame(), {0, 0, 1});

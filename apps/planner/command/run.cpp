@@ -51,15 +51,16 @@ int run(const Arguments& a) {
   if (!a.assembly.empty()) return run_assembly(a);
   Scene scene = scene_of(a);
   if (const std::optional<int> code = run_check_proof(a, scene)) return *code;
+  if (!a.check_proof.empty() && (!scene.rotation || !a.given_path.empty())) {
+    throw InputError("--check-proof " + a.check_proof +
+                     ": this is not a file that --proof wrote; only for scenes with a rotation it may be a report");
+  }
   std::vector<RigidPose> path;
   if (!a.given_path.empty()) path = read_path(a.given_path);
   if (std::any_of(path.begin(), path.end(), is_turned)) return run_certify(a, scene, path);
   nlohmann::json widest;
   if (a.widest || a.widest_box) widest = make_widest(a, scene);
   if (scene.rotation) return run_turning(a, scene, widest);
-  if (!a.check_proof.empty())
-    throw InputError("--check-proof " + a.check_proof +
-                     ": this is not a file that --proof wrote; only for scenes with a rotation it may be a report");
   return run_translations(a, scene, widest, path);
 }
 

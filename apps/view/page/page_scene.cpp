@@ -81,6 +81,7 @@ class SceneWriter {
               {"facets", facets(scene)},     {"volumes", volumes(scene, colors)},
               {"spheres", spheres(scene)},   {"lines", lines(layer)},
               {"photos", photos(layer)}};
+    if (!layer.surface.none()) json["surface"] = surface(layer.surface);
     if (scene.box) json["box"] = {relative((*scene.box)[0]), relative((*scene.box)[1])};
     if (!layer.motion.empty()) json["motion"] = {{"times", layer.motion.times}, {"offsets", layer.motion.offsets}};
     if (!layer.motion.turns.empty()) {
@@ -89,6 +90,17 @@ class SceneWriter {
     }
     add_exact(scene, json);
     return json;
+  }
+
+  Json surface(const SurfaceColors& surface) {
+    if (!surface.has_image()) {
+      std::vector<std::uint8_t> rgb;
+      for (const Color& color : surface.vertices) rgb.insert(rgb.end(), color.begin(), color.end());
+      return {{"rgb", array("u8", rgb)}};
+    }
+    std::vector<float> places;
+    for (const auto& place : surface.places) places.insert(places.end(), place.begin(), place.end());
+    return {{"places", array("f32", places)}, {"url", "data:image/png;base64," + base64(png_bytes(surface.image))}};
   }
 
   static std::uint8_t flags(bool isolated, Origin origin) {

@@ -63,6 +63,38 @@ Color Raster::filled(const PaintTriangle& triangle, double x, double y) const {
   return triangle.color;
 }
 
+Color Raster::surface_color(const PaintTriangle& triangle, const std::array<double, 3>& weights) {
+  const SurfaceColors& surface = *triangle.surface.surface;
+  // Weights in space: those on the picture count by inverse depth.
+  std::array<double, 3> w{};
+  double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) sum += w[i] = weights[i] * triangle.corners[i].inverse_depth;
+  for (double& x : w) x = sum > 0 ? x / sum : 1.0 / 3;
+  if (!surface.has_image()) {
+    std::array<double, 3> color{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Color& corner = surface.vertices[triangle.surface.vertices[i]];
+      for (std::size_t k = 0; k < 3; ++k) color[k] += w[i] * corner[k];
+    }
+    Color result;
+    for (std::size_t k = 0; k < 3; ++k)
+      result[k] = static_cast<std::uint8_t>(std::lround(std::clamp(color[k], 0.0, 255.0)));
+    return result;
+  }
+  double u = 0;
+  double v = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    u += w[i] * static_cast<double>(surface.places[triangle.surface.first_place + i][0]);
+    v += w[i] * static_cast<double>(surface.places[triangle.surface.first_place + i][1]);
+  }
+  // The pixel that holds the place: there are nine samples a pixel of the picture.
+  const Image& image = surface.image;
+  const double column = std::clamp(std::floor(u * image.width), 0.0, image.width - 1.0);
+  const double row = std::clamp(std::floor((1 - v) * image.height), 0.0, image.height - 1.0);
+  const std::size_t at = 3 * (static_cast<std::size_t>(row) * image.width + static_cast<std::size_t>(column));
+  return {image.rgb[at], image.rgb[at + 1], image.rgb[at + 2]};
+}
+
 void Raster::paint(const PaintTriangle& triangle) {
   const auto& [a, b, c] = triangle.corners;
   const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
@@ -96,12 +128,14 @@ void Raster::paint(const PaintTriangle& triangle) {
                                               v * (c.inverse_depth - a.inverse_depth));
       const std::size_t sample = std::size_t{row} * width_ + column;
       if (inverse <= depth_[sample]) continue;
+      const Color color =
+          triangle.surface.surface != nullptr ? surface_color(triangle, {1 - u - v, u, v}) : filled(triangle, x, y);
       if (triangle.opacity < 1) {
-        fragments_.push_back({static_cast<std::uint32_t>(sample), inverse, filled(triangle, x, y), triangle.opacity});
+        fragments_.push_back({static_cast<std::uint32_t>(sample), inverse, color, triangle.opacity});
       } else {
         depth_[sample] = inverse;
         facet_[sample] = triangle.facet;
-        color_[sample] = filled(triangle, x, y);
+        color_[sample] = color;
       }
     }
   }

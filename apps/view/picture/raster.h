@@ -17,12 +17,20 @@ namespace nef::view {
 /// How the surface of a facet is filled.
 enum class Fill : std::uint8_t { kSolid, kStriped, kFaded, kCut };
 
+/// What a triangle shows in place of one colour: an image, or the colours of its corners.
+struct PaintSurface {
+  const SurfaceColors* surface = nullptr;   ///< outlives the triangle
+  std::array<std::uint32_t, 3> vertices{};  ///< in surface->vertices
+  std::uint32_t first_place = 0;            ///< of the first corner in surface->places
+};
+
 struct PaintTriangle {
   std::array<Projected, 3> corners;
   Color color{};
   Fill fill = Fill::kSolid;
   float opacity = 1;
   std::uint32_t facet = 0;  ///< of all layers together
+  PaintSurface surface = {};
 };
 
 /// `beside` are the facets whose planes hold the line or dot: they never hide it, however the depth is rounded.
@@ -68,6 +76,8 @@ class Raster {
 
   [[nodiscard]] bool hidden(std::size_t sample, double inverse_depth, std::span<const std::uint32_t> beside) const;
   [[nodiscard]] Color filled(const PaintTriangle& triangle, double x, double y) const;
+  // The colour at weights of the corners on the picture.
+  [[nodiscard]] static Color surface_color(const PaintTriangle& triangle, const std::array<double, 3>& weights);
   void put_mark(std::size_t sample, double inverse_depth, const Color& color, double before);
   void blend_fragments();
 

@@ -55,11 +55,19 @@ function facetGeometry(layer) {
     const style = originOf(flags[f]) === ORIGIN_BOX ? 128 : mark[f] ? 0 : 255;
     front.fill(colorOf(f, true, style), 3 * begin[f], 3 * begin[f + 1]);
     back.fill(colorOf(f, false, style), 3 * begin[f], 3 * begin[f + 1]);
+    if (layer.surface?.rgb && style === 0) {
+      const { rgb } = layer.surface;
+      for (let i = 3 * begin[f]; i < 3 * begin[f + 1]; ++i) {
+        const [r, g, b] = rgb.subarray(3 * corners[i], 3 * corners[i] + 3);
+        front[i] = back[i] = ((b << 16) | (g << 8) | r) >>> 0;
+      }
+    }
   }
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
   geometry.setAttribute("front", new THREE.BufferAttribute(new Uint8Array(front.buffer), 4, true));
   geometry.setAttribute("back", new THREE.BufferAttribute(new Uint8Array(back.buffer), 4, true));
+  if (layer.surface?.places) geometry.setAttribute("place", new THREE.BufferAttribute(layer.surface.places, 2));
   return geometry;
 }
 
@@ -217,16 +225,29 @@ function shineThrough(mesh) {
   return mesh;
 }
 
+// Its numbers are shown as they are, as those of all facets.
+function surfaceImage(url, onLoad) {
+  const image = new THREE.TextureLoader().load(url, onLoad);
+  image.generateMipmaps = false; // charts would mix
+  image.minFilter = THREE.LinearFilter;
+  return image;
+}
+
 export class LayerView {
   // radius: of the page, in which the layer is seen; alone: it is the only one.
   constructor(layer, shared, radius, alone, onLoad) {
     const length = meanLength(layer, radius);
     const thin = layer.facets.mark.length === 0;
-    this.dense = !thin && length < DENSE;
+    // Lines and dots would cover the colours of a surface.
+    this.dense = !thin && (length < DENSE || layer.surface !== undefined);
     this.layer = layer;
     this.opacity = { value: layer.opacity };
     this.group = new THREE.Group();
-    this.facets = new THREE.Mesh(facetGeometry(layer), facetMaterial(shared, this.opacity));
+    const image = layer.surface?.url ? surfaceImage(layer.surface.url, onLoad) : null;
+    this.facets = new THREE.Mesh(
+      facetGeometry(layer),
+      facetMaterial(shared, this.opacity, layer.surface !== undefined, image),
+    );
     this.facets.frustumCulled = false;
     this.edges = lineMesh(edgeSegments(layer, length, thin && !alone), shared);
     this.vertices = dotMesh(vertexDots(layer, length), shared);

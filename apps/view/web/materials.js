@@ -21,9 +21,12 @@ export function sharedUniforms() {
 
 // Attributes: front and back, the colours of both sides; their fourth component is how the facet is drawn:
 // 0 solid, 1 striped (not selected), 0.5 faded (on the visible box).
-export function facetMaterial(shared, opacity) {
+// own: the colours are those of the surface, shown without light and shade; image: they come from it, by the attribute
+// place.
+export function facetMaterial(shared, opacity, own, image) {
   return new THREE.ShaderMaterial({
-    uniforms: { ...shared, opacity },
+    uniforms: { ...shared, opacity, image: { value: image } },
+    defines: { ...(own ? { OWN_COLORS: 1 } : {}), ...(image ? { IMAGE: 1 } : {}) },
     side: THREE.DoubleSide,
     polygonOffset: true,
     polygonOffsetFactor: 1,
@@ -35,7 +38,14 @@ varying vec4 vFront;
 varying vec4 vBack;
 varying vec3 vWorld;
 varying vec3 vEye;
+#ifdef IMAGE
+attribute vec2 place;
+varying vec2 vPlace;
+#endif
 void main() {
+#ifdef IMAGE
+  vPlace = place;
+#endif
   vFront = front;
   vBack = back;
   vec4 world = modelMatrix * vec4(position, 1.0);
@@ -51,11 +61,21 @@ uniform float ratio;
 varying vec4 vFront;
 varying vec4 vBack;
 varying vec3 vEye;
+#ifdef IMAGE
+uniform sampler2D image;
+varying vec2 vPlace;
+#endif
 void main() {
   cutAway();
   vec4 side = gl_FrontFacing ? vFront : vBack;
+#ifdef IMAGE
+  if (side.a < 0.25) side.rgb = texture2D(image, vPlace).rgb;
+#endif
   vec3 normal = normalize(cross(dFdx(vEye), dFdy(vEye)));
   float light = 0.55 + 0.36 * max(dot(normal, normalize(vec3(0.35, 0.65, 0.7))), 0.0) + 0.14 * max(normal.z, 0.0);
+#ifdef OWN_COLORS
+  if (side.a < 0.25) light = 1.0;
+#endif
   vec3 color = side.rgb * light;
   float alpha = opacity;
   if (side.a > 0.75) {

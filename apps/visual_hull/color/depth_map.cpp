@@ -4,62 +4,36 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/visual_hull/color/triangle_pixels.h"
+
 namespace nef::visual_hull {
 
-DepthMap::DepthMap(const Camera& camera, PixelOrigin origin, int width, int height)
+DepthMap::DepthMap(double pixel_width, int width, int height)
     : width_(width),
       height_(height),
-      shift_(origin == PixelOrigin::kCorner ? -0.5 : 0),
-      nearest_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0) {
-  require_pinhole(camera, "--color");
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 4; ++j) matrix_[i][j] = nef::nearest_double(camera.matrix()[i][j]);
-  }
-  // The focal length in pixels: |m0 x m2| / |m2|^2.
-  const auto& p = matrix_[0];
-  const auto& q = matrix_[2];
-  const double area = std::hypot(p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]);
-  slack_ = 3 * (q[0] * q[0] + q[1] * q[1] + q[2] * q[2]) / area;
-}
+      slack_(3 * pixel_width),
+      nearest_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0) {}
 
-std::optional<DepthMap::Place> DepthMap::project(const std::array<double, 3>& point) const {
-  std::array<double, 3> x{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    x[i] = matrix_[i][3];
-    for (std::size_t j = 0; j < 3; ++j) x[i] += matrix_[i][j] * point[j];
-  }
-  if (!(x[2] > 0)) return std::nullopt;
-  return Place{x[0] / x[2] + shift_, x[1] / x[2] + shift_, 1 / x[2]};
-}
-
-void DepthMap::draw(const std::array<std::optional<Place>, 3>& triangle) {
+void DepthMap::draw(const std::array<std::optional<ImagePlace>, 3>& triangle) {
   if (!triangle[0] || !triangle[1] || !triangle[2]) return;
-  const Place& a = *triangle[0];
-  const Place& b = *triangle[1];
-  const Place& c = *triangle[2];
-  const double area = (b.u - a.u) * (c.v - a.v) - (b.v - a.v) * (c.u - a.u);
+  const Triangle2 t{
+      {{triangle[0]->u, triangle[0]->v}, {triangle[1]->u, triangle[1]->v}, {triangle[2]->u, triangle[2]->v}}};
+  const double area = doubled_area(t);
   if (!(std::abs(area) > 0)) return;
-  const int top = static_cast<int>(std::ceil(std::clamp(std::min({a.v, b.v, c.v}), 0.0, 1e9)));
-  const int bottom = static_cast<int>(std::floor(std::clamp(std::max({a.v, b.v, c.v}), -1.0, height_ - 1.0)));
-  const int left = static_cast<int>(std::ceil(std::clamp(std::min({a.u, b.u, c.u}), 0.0, 1e9)));
-  const int right = static_cast<int>(std::floor(std::clamp(std::max({a.u, b.u, c.u}), -1.0, width_ - 1.0)));
   constexpr double kRim = -1e-9;  // no gaps between neighbours
-  for (int y = top; y <= bottom; ++y) {
-    for (int x = left; x <= right; ++x) {
-      const double s = ((x - a.u) * (c.v - a.v) - (y - a.v) * (c.u - a.u)) / area;
-      const double t = ((b.u - a.u) * (y - a.v) - (b.v - a.v) * (x - a.u)) / area;
-      if (s < kRim || t < kRim || s + t > 1 - kRim) continue;
-      // One over the depth is affine in the image.
-      const double inverse =
-          a.inverse_depth + s * (b.inverse_depth - a.inverse_depth) + t * (c.inverse_depth - a.inverse_depth);
-      double& nearest =
-          nearest_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
-      nearest = std::max(nearest, inverse);
-    }
-  }
+  for_each_pixel_near(t, 1e-6, width_, height_, [&](int x, int y) {
+    const Weights w = weights_at(t, area, x, y);
+    if (w[0] < kRim || w[1] < kRim || w[2] < kRim) return;
+    // One over the depth is affine in the image.
+    const double inverse =
+        w[0] * triangle[0]->inverse_depth + w[1] * triangle[1]->inverse_depth + w[2] * triangle[2]->inverse_depth;
+    double& nearest =
+        nearest_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x)];
+    nearest = std::max(nearest, inverse);
+  });
 }
 
-bool DepthMap::sees(const Place& place) const {
+bool DepthMap::sees(const ImagePlace& place) const {
   const double x = std::floor(place.u);
   const double y = std::floor(place.v);
   if (!(x >= 0 && y >= 0 && x + 1 < width_ && y + 1 < height_)) return false;

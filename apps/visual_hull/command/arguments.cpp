@@ -120,8 +120,11 @@ void add_output_options(CLI::App& app, Arguments& a) {
   app.add_flag("--manifold", a.session.mesh_file.manifold,
                "Write a mesh in which each edge has two faces: diagonal pixels are joined, other contacts are split");
   app.add_flag("--color", a.color,
-               "Give each vertex the mean colour of the views that see it (PLY, GLB); photographs for masks/NAME are "
-               "searched in images/");
+               "Give each vertex the mean colour of the views that see it (PLY, GLB, --page, --picture); photographs "
+               "for masks/NAME are searched in images/");
+  app.add_flag("--texture", a.texture,
+               "Make an image of the surface from the photographs (GLB; OBJ and PLY with files beside them; --page, "
+               "--picture)");
   app.add_flag("--verify", a.verify, "Project the hull back into every view; exit code 1 if it is not inside");
   app.add_option(
          "--way", a.way,
@@ -147,6 +150,21 @@ void add_output_options(CLI::App& app, Arguments& a) {
       ->type_name("DIR");
   app.add_option("--page", a.page, "Write a page that shows the hull with its cameras and their images")
       ->type_name("FILE.html");
+  app.add_option("--picture", a.picture, "Draw the hull")->type_name("FILE.png");
+  CLI::Option* points = app.add_option("--points", a.points,
+                                       "Write points of the surface with normals (.ply) and colours (.ply, or .txt as "
+                                       "COLMAP's points3D.txt), for programs that begin with points")
+                            ->type_name("FILE");
+  app.add_option("--samples", a.samples, "How many points --points writes")
+      ->check(nef::positive())
+      ->capture_default_str()
+      ->needs(points)
+      ->type_name("N");
+  app.add_option(
+         "--hull-masks", a.hull_masks,
+         "Directory for a mask of the hull per view, NAME.png for the photograph NAME, and bounding_box.txt, as "
+         "COLMAP's stereo_fusion takes them")
+      ->type_name("DIR");
   nef::add_run_flags(&app, a.session);
 }
 

@@ -25,6 +25,7 @@ struct Arguments {
   double simplify = 0;
   bool outer = false;
   bool color = false;
+  bool texture = false;
   std::string border = "outside";
   std::string box;
   std::string origin;
@@ -44,6 +45,10 @@ struct Arguments {
   std::string frames;
   std::string overlay;
   std::string page;
+  std::string picture;
+  std::string points;
+  std::size_t samples = 100000;
+  std::string hull_masks;
   bool check = false;
   bool verify = false;
   bool largest = false;

@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "apps/visual_hull/color/vertex_colors.h"
+#include "apps/visual_hull/command/overlay.h"
+#include "apps/visual_hull/texture/hull_texture.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/mesh/mesh_formats.h"
@@ -23,6 +25,23 @@ void need_mesh(const Arguments& a, const std::string& option, bool (*suits)(cons
                         nef::mesh_format_names(suits, "and") + " can");
 }
 
+// Colours and textures are for a mesh, a page or a picture.
+void need_surface(const Arguments& a, const std::string& option, bool (*suits)(const nef::MeshFormat&)) {
+  const bool shown = !a.page.empty() || !a.picture.empty();
+  if (!shown || !a.session.output.empty()) need_mesh(a, option, suits);
+}
+
+// A note if there are no photographs beside the masks.
+void note_masks(const Result& result, nef::Messages& messages) {
+  const bool masks = std::all_of(result.views.begin(), result.views.end(), [](const ViewResult& view) {
+    const std::string folder = view.image.parent_path().filename().string();
+    return (folder == "masks" || folder == "silhouettes") && photograph_of(view.image) == view.image;
+  });
+  if (!masks) return;
+  messages.push_back(
+      "the colours are those of the masks, because images/ beside them has no photographs of the same names");
+}
+
 std::vector<Color> colors_of(const nef::Mesh& mesh, const Result& result, const nef::Monitor& monitor,
                              nef::Messages& messages) {
   VertexColors found = vertex_colors(mesh, result.views, result.origin, monitor);
@@ -30,15 +49,20 @@ std::vector<Color> colors_of(const nef::Mesh& mesh, const Result& result, const 
     messages.push_back(fmt::format("{} of {} vertices are seen by no view and get the colours of their neighbours",
                                    found.unseen, found.colors.size()));
   }
-  const bool masks = std::all_of(result.views.begin(), result.views.end(), [](const ViewResult& view) {
-    const std::string folder = view.image.parent_path().filename().string();
-    return (folder == "masks" || folder == "silhouettes") && photograph_of(view.image) == view.image;
-  });
-  if (masks) {
-    messages.push_back(
-        "the colours are those of the masks, because images/ beside them has no photographs of the same names");
-  }
+  note_masks(result, messages);
   return std::move(found.colors);
+}
+
+nef::MeshTexture texture_of(const nef::Mesh& mesh, const Result& result, const nef::Monitor& monitor,
+                            nef::Messages& messages, std::optional<TextureFigures>& figures) {
+  HullTexture found = hull_texture(mesh, result.views, result.origin, monitor);
+  figures = TextureFigures{found.image.cols, found.image.rows, found.charts, found.unseen};
+  if (found.unseen >= 0.001) {
+    messages.push_back(fmt::format("{:.1f} % of the surface is seen by no view and gets the colours of its neighbours",
+                                   100 * found.unseen));
+  }
+  note_masks(result, messages);
+  return {png_of(found.image), std::move(found.corners)};
 }
 
 }  // namespace
@@ -48,7 +72,14 @@ void check_output(const Arguments& a) {
   if (a.decimate != 0) need_mesh(a, "--decimate", [](const MeshFormat& /*any*/) { return true; });
   if (a.session.mesh_file.manifold)
     need_mesh(a, "--manifold", [](const MeshFormat& format) { return format.has(nef::kNamedVertices); });
-  if (a.color) need_mesh(a, "--color", [](const MeshFormat& format) { return format.has(nef::kVertexColors); });
+  if (a.color && a.texture) throw nef::InputError("--color and --texture exclude each other: use one of them");
+  if (a.color) need_surface(a, "--color", [](const MeshFormat& format) { return format.has(nef::kVertexColors); });
+  if (!a.texture) return;
+  need_surface(a, "--texture", [](const MeshFormat& format) { return format.has(nef::kTexture); });
+  if (a.session.mesh_file.manifold) {
+    throw nef::InputError(
+        "--texture and --manifold exclude each other: a textured mesh has vertices of its own at seams");
+  }
 }
 
 WrittenHull write_hull(const std::string& path, const Result& result, const Arguments& a,
@@ -59,6 +90,11 @@ WrittenHull write_hull(const std::string& path, const Result& result, const Argu
     };
   }
   WrittenHull written;
+  if (a.texture) {
+    format.texture = [&result, &messages, &written, monitor = format.monitor](const nef::Mesh& mesh) {
+      return texture_of(mesh, result, monitor, messages, written.texture);
+    };
+  }
   if (a.decimate == 0) {
     written.file = nef::write_polyhedron(path, result.hull, format, &messages);
   } else {
@@ -74,6 +110,10 @@ nlohmann::ordered_json decimation_json(const nef::DecimatedMesh& decimated) {
   return {{"triangles", decimated.mesh.face_count()},
           {"vertices", decimated.mesh.vertices.size()},
           {"distance", {{"low", decimated.distance.low}, {"high", decimated.distance.high}}}};
+}
+
+nlohmann::ordered_json texture_json(const TextureFigures& figures) {
+  return {{"width", figures.width}, {"height", figures.height}, {"charts", figures.charts}, {"unseen", figures.unseen}};
 }
 
 std::string decimation_text(const nef::DecimatedMesh& decimated) {

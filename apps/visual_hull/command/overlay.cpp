@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
-#include "apps/view/image.h"
 #include "apps/visual_hull/command/photographs.h"
 #include "apps/visual_hull/polygon/edge_grid.h"
 #include "nef/io/file_bytes.h"
@@ -106,12 +105,14 @@ cv::Mat draw_overlay(const ViewResult& view, const nef::Polyhedron& hull, PixelO
   return canvas;
 }
 
-std::string png_of(const cv::Mat& picture) {
+nef::view::Image image_of(const cv::Mat& picture) {
   nef::view::Image image{static_cast<std::uint32_t>(picture.cols), static_cast<std::uint32_t>(picture.rows), {}};
   image.rgb.resize(3 * picture.total());
   cv::cvtColor(picture, cv::Mat(picture.size(), CV_8UC3, image.rgb.data()), cv::COLOR_BGR2RGB);
-  return nef::view::png_bytes(image);
+  return image;
 }
+
+std::string png_of(const cv::Mat& picture) { return nef::view::png_bytes(image_of(picture)); }
 
 void write_overlays(const Result& result, PixelOrigin origin, const std::filesystem::path& folder) {
   make_folder("--overlay", folder);

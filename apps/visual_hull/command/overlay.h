@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "apps/view/image.h"
 #include "apps/visual_hull/visual_hull.h"
 
 namespace nef::visual_hull {
@@ -11,6 +12,9 @@ namespace nef::visual_hull {
 /// (the residual, yellow) and the polygon of the silhouette (red) drawn over it. Views without an image get a canvas
 /// around their polygons.
 cv::Mat draw_overlay(const ViewResult& view, const nef::Polyhedron& hull, PixelOrigin origin);
+
+/// A picture of three channels (blue, green, red) as an image of pages and pictures.
+nef::view::Image image_of(const cv::Mat& picture);
 
 /// The bytes of a PNG file of a picture of three channels (blue, green, red).
 std::string png_of(const cv::Mat& picture);

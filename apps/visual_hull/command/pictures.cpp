@@ -9,7 +9,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "apps/view/page.h"
+#include "apps/visual_hull/color/vertex_colors.h"
 #include "apps/visual_hull/command/overlay.h"
+#include "apps/visual_hull/texture/hull_texture.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 
@@ -25,10 +27,48 @@ constexpr nef::view::Color kOutlineColor{200, 40, 40};
 constexpr std::uintmax_t kLargestFile = std::uintmax_t{512} << 10U;  // of an image that is embedded as it is
 constexpr int kLongestSide = 1024;                                   // pixels of others
 
-Layer hull_layer(const Result& result, const nef::Monitor& monitor) {
+// The triangles of a scene as a mesh whose faces are counterclockwise as seen from outside.
+nef::Mesh mesh_of(const nef::view::Scene& scene) {
+  nef::Mesh mesh;
+  for (const nef::view::SceneVertex& vertex : scene.vertices) {
+    mesh.vertices.push_back({nef::exact_rational(vertex.position[0]), nef::exact_rational(vertex.position[1]),
+                             nef::exact_rational(vertex.position[2])});
+  }
+  for (const nef::view::SceneFacet& facet : scene.facets) {
+    const bool turn = nef::view::Scene::selected(scene.volumes[facet.above].mark);
+    for (std::uint32_t t = facet.first_triangle; t < facet.first_triangle + facet.triangle_count; ++t) {
+      const auto& [a, b, c] = scene.triangles[t];
+      mesh.push_face(turn ? std::array{a, c, b} : std::array{a, b, c});
+    }
+  }
+  return mesh;
+}
+
+// The corners of mesh_of's faces that were turned are turned back.
+nef::view::SurfaceColors textured_surface(const nef::view::Scene& scene, HullTexture texture) {
+  nef::view::SurfaceColors surface;
+  surface.image = image_of(texture.image);
+  surface.places = std::move(texture.corners);
+  for (const nef::view::SceneFacet& facet : scene.facets) {
+    if (!nef::view::Scene::selected(scene.volumes[facet.above].mark)) continue;
+    for (std::uint32_t t = facet.first_triangle; t < facet.first_triangle + facet.triangle_count; ++t) {
+      std::swap(surface.places[3 * t + 1], surface.places[3 * t + 2]);
+    }
+  }
+  return surface;
+}
+
+Layer hull_layer(const Result& result, PixelOrigin origin, const nef::Monitor& monitor, HullColors colors) {
   Layer layer;
   layer.name = "hull";
   layer.scene = nef::view::build_scene(result.hull, {}, monitor);
+  if (colors == HullColors::kPlain || layer.scene.triangles.empty()) return layer;
+  const nef::Mesh mesh = mesh_of(layer.scene);
+  if (colors == HullColors::kVertices) {
+    layer.surface.vertices = vertex_colors(mesh, result.views, origin, monitor).colors;
+  } else {
+    layer.surface = textured_surface(layer.scene, hull_texture(mesh, result.views, origin, monitor));
+  }
   return layer;
 }
 
@@ -140,8 +180,9 @@ void add_outline(Layer& layer, const ViewResult& view, const ImagePlane& plane) 
 
 }  // namespace
 
-std::vector<Layer> page_layers(const Result& result, PixelOrigin origin, const nef::Monitor& monitor) {
-  std::vector<Layer> layers{hull_layer(result, monitor)};
+std::vector<Layer> page_layers(const Result& result, PixelOrigin origin, const nef::Monitor& monitor,
+                               HullColors colors) {
+  std::vector<Layer> layers{hull_layer(result, origin, monitor, colors)};
   Layer cameras;
   cameras.name = "cameras";
   cameras.color = kCameraColor;
@@ -157,10 +198,16 @@ std::vector<Layer> page_layers(const Result& result, PixelOrigin origin, const n
   return layers;
 }
 
-void write_page(const Result& result, PixelOrigin origin, const fs::path& file, const nef::Monitor& monitor) {
+void write_page(const Result& result, PixelOrigin origin, const fs::path& file, const nef::Monitor& monitor,
+                HullColors colors) {
   nef::view::PageOptions options;
   options.title = "visual hull of " + std::to_string(result.views.size()) + " views";
-  nef::view::write_page(page_layers(result, origin, monitor), file.string(), options);
+  nef::view::write_page(page_layers(result, origin, monitor, colors), file.string(), options);
+}
+
+void write_hull_picture(const Result& result, PixelOrigin origin, const fs::path& file, const nef::Monitor& monitor,
+                        HullColors colors, const nef::view::PictureOptions& options) {
+  nef::view::write_picture({hull_layer(result, origin, monitor, colors)}, file.string(), options);
 }
 
 }  // namespace nef::visual_hull

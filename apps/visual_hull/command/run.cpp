@@ -4,6 +4,7 @@
 // for people, notes and the report go through the session, as in all programs.
 #include "apps/visual_hull/command/run.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
@@ -16,13 +17,16 @@
 #include "apps/visual_hull/command/calibrate_run.h"
 #include "apps/visual_hull/command/frames.h"
 #include "apps/visual_hull/command/hull_file.h"
+#include "apps/visual_hull/command/hull_masks.h"
 #include "apps/visual_hull/command/masks_run.h"
 #include "apps/visual_hull/command/overlay.h"
 #include "apps/visual_hull/command/pictures.h"
 #include "apps/visual_hull/command/report.h"
 #include "apps/visual_hull/formats/write_scene.h"
+#include "apps/visual_hull/points/point_cloud.h"
 #include "apps/visual_hull/scene/understanding.h"
 #include "nef/base/error.h"
+#include "nef/base/word_list.h"
 #include "nef/io/file_bytes.h"
 
 namespace nef::visual_hull {
@@ -106,19 +110,35 @@ void write_refined_scene(const Arguments& a, Scene scene, const Result& result) 
   write_scene_file(a.refined_scene, std::move(scene));
 }
 
-// What is asked for, into files; the mesh that was written if the hull was decimated. A hull that vanished has pictures
-// of its views only.
-std::optional<nef::DecimatedMesh> write_files(const Arguments& a, const Scene& scene, const Result& result,
-                                              const nef::Monitor& monitor) {
+// The files of a hull that has not vanished, but its mesh.
+void write_hull_files(const Arguments& a, const Result& result, const nef::Monitor& monitor) {
   nef::Session& session = a.session;
-  std::optional<nef::DecimatedMesh> decimated;
+  const HullColors colors = a.texture ? HullColors::kTexture : a.color ? HullColors::kVertices : HullColors::kPlain;
+  const auto write = [&](const std::string& path, const std::function<void()>& work) {
+    if (path.empty()) return;
+    session.show_phase("writing " + path);
+    work();
+  };
+  write(a.page, [&] { write_page(result, result.origin, a.page, monitor, colors); });
+  write(a.picture, [&] { write_hull_picture(result, result.origin, a.picture, monitor, colors); });
+  write(a.hull_masks, [&] { write_hull_masks(result, a.hull_masks); });
+  write(a.points, [&] {
+    const PointCloud cloud = sample_hull(result, a.samples, monitor);
+    session.note_all(cloud.notes);
+    write_points(cloud, a.points);
+  });
+}
+
+// What is asked for, into files; what there is to say of the mesh. A hull that vanished has pictures of its views only.
+WrittenHull write_files(const Arguments& a, const Scene& scene, const Result& result, const nef::Monitor& monitor) {
+  nef::Session& session = a.session;
+  WrittenHull hull;
   if (!session.output.empty() && !result.vanished) {
     session.write(session.output, [&](nef::Messages& notes) {
       nef::PolyhedronWriteOptions format = session.write_options();
       format.monitor = monitor;
-      WrittenHull written = write_hull(session.output, result, a, format, notes);
-      decimated = std::move(written.decimated);
-      return written.file;
+      hull = write_hull(session.output, result, a, format, notes);
+      return hull.file;
     });
   }
   if (!a.overlay.empty()) {
@@ -129,24 +149,28 @@ std::optional<nef::DecimatedMesh> write_files(const Arguments& a, const Scene& s
     session.show_phase("writing " + a.refined_scene);
     write_refined_scene(a, scene, result);
   }
-  if (!a.page.empty() && !result.vanished) {
-    session.show_phase("writing " + a.page);
-    write_page(result, result.origin, a.page, monitor);
-  }
-  return decimated;
+  if (!result.vanished) write_hull_files(a, result, monitor);
+  return hull;
 }
 
-void check_page_name(const std::string& page) {
-  if (!page.empty() && fs::path(page).extension() != ".html") {
-    throw nef::InputError("--page " + page + ": the extension must be .html");
-  }
+void check_extension(const std::string& option, const std::string& file, const std::vector<std::string>& extensions) {
+  if (file.empty()) return;
+  const std::string extension = fs::path(file).extension().string();
+  if (std::find(extensions.begin(), extensions.end(), extension) != extensions.end()) return;
+  throw nef::InputError(option + " " + file + ": the extension must be " + nef::word_list(extensions, "or"));
+}
+
+void check_file_names(const Arguments& a) {
+  check_extension("--page", a.page, {".html"});
+  check_extension("--picture", a.picture, {".png"});
+  check_extension("--points", a.points, {".ply", ".txt"});
 }
 
 int run(const Arguments& a) {
   nef::Session& session = a.session;
   check_output(a);
   if (!a.frames.empty()) return make_frames(a);
-  check_page_name(a.page);
+  check_file_names(a);
   const Options options = to_options(a);
   const Scene scene = scene_of(a);
   if (a.check) return check_scene(a, scene);
@@ -157,17 +181,18 @@ int run(const Arguments& a) {
   session.note_all(result.notes);
   session.note_all(refinement_lines(result));
   if (const auto note = cut_note(result)) session.note(*note);
-  std::optional<nef::DecimatedMesh> decimated;
+  WrittenHull written;
   timed(result.phases, Phase::kWrite, session.monitor,
-        [&](const nef::Monitor& monitor) { decimated = write_files(a, scene, result, monitor); });
+        [&](const nef::Monitor& monitor) { written = write_files(a, scene, result, monitor); });
   if (!session.report.empty() || session.json) {
     session.show_phase("writing the report");
     tell_phases(session, result);
     nef::Json report = make_report(result, a.exact_volume);
-    if (decimated) report["decimated"] = decimation_json(*decimated);
+    if (written.decimated) report["decimated"] = decimation_json(*written.decimated);
+    if (written.texture) report["texture"] = texture_json(*written.texture);
     session.print("hull", report);
   }
-  if (decimated) session.say(decimation_text(*decimated));
+  if (written.decimated) session.say(decimation_text(*written.decimated));
   return conclude(session, scene, result);
 }
 

@@ -42,7 +42,7 @@ std::size_t GlbDocument::add_floats(std::span<const float> values, std::size_t w
   }
   Json entry = accessor(values, target, GlbComponent::kFloat);
   entry["count"] = values.size() / width;
-  entry["type"] = width == 1 ? "SCALAR" : width == 3 ? "VEC3" : "VEC4";
+  entry["type"] = width == 1 ? "SCALAR" : "VEC" + std::to_string(width);
   entry["min"] = low;
   entry["max"] = high;
   return add(std::move(entry));
@@ -63,6 +63,19 @@ std::size_t GlbDocument::add_colors(std::span<const std::uint16_t> channels) {
   return add(std::move(entry));
 }
 
+std::size_t GlbDocument::add_texture(std::string_view png) {
+  constexpr int kLinear = 9729;
+  constexpr int kClampToEdge = 33071;
+  views_.push_back({{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", png.size()}});
+  binary_ += png;
+  binary_.resize((binary_.size() + 3) / 4 * 4, '\0');  // numbers that follow begin at multiples of their size
+  images_.push_back({{"bufferView", views_.size() - 1}, {"mimeType", "image/png"}});
+  samplers_.push_back(
+      {{"magFilter", kLinear}, {"minFilter", kLinear}, {"wrapS", kClampToEdge}, {"wrapT", kClampToEdge}});
+  textures_.push_back({{"source", images_.size() - 1}, {"sampler", samplers_.size() - 1}});
+  return textures_.size() - 1;
+}
+
 std::string GlbDocument::bytes() const {
   Json document{{"asset", {{"version", "2.0"}, {"generator", "nef"}}}, {"scene", 0}, {"scenes", scenes}};
   const auto add_list = [&document](const char* key, const Json& list) {
@@ -72,6 +85,9 @@ std::string GlbDocument::bytes() const {
   add_list("meshes", meshes);
   add_list("accessors", accessors_);
   add_list("bufferViews", views_);
+  add_list("images", images_);
+  add_list("samplers", samplers_);
+  add_list("textures", textures_);
   add_list("materials", materials);
   add_list("animations", animations);
   if (!binary_.empty()) document["buffers"] = {{{"byteLength", binary_.size()}}};

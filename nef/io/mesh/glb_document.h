@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace nef {
 
@@ -40,12 +41,14 @@ class GlbDocument {
   Json materials = Json::array();
   Json animations = Json::array();
 
-  /// Floats in groups of `width` (1, 3 or 4) with their bounds; at least one group.
+  /// Floats in groups of `width` (1 to 4) with their bounds; at least one group.
   std::size_t add_floats(std::span<const float> values, std::size_t width, GlbTarget target);
   /// Indices of vertices.
   std::size_t add_indices(std::span<const std::uint32_t> indices);
   /// Colours in linear light, four numbers each, 65535 being full.
   std::size_t add_colors(std::span<const std::uint16_t> channels);
+  /// A PNG file as a texture that ends at its borders; named by its index among the textures.
+  std::size_t add_texture(std::string_view png);
 
   /// The file. Lists without entries are left out, as the format knows none.
   [[nodiscard]] std::string bytes() const;
@@ -57,6 +60,9 @@ class GlbDocument {
 
   Json accessors_ = Json::array();
   Json views_ = Json::array();
+  Json images_ = Json::array();
+  Json samplers_ = Json::array();
+  Json textures_ = Json::array();
   std::string binary_;
 };
 

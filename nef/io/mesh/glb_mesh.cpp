@@ -372,6 +372,43 @@ GlbDocument::Json primitive_of(GlbDocument& document, const Mesh& mesh, const Me
           {"mode", static_cast<std::size_t>(GlbMode::kTriangles)}};
 }
 
+std::vector<float> coordinates_of(const std::vector<Rational3>& points) {
+  std::vector<float> coordinates;
+  coordinates.reserve(3 * points.size());
+  for (const Rational3& point : points) {
+    for (const Rational& number : point) coordinates.push_back(nearest_float(number));
+  }
+  return coordinates;
+}
+
+// All triangles with the image on them. glTF counts rows of images from the top.
+GlbDocument::Json textured_primitive(GlbDocument& document, const Mesh& mesh, const MeshSurface& surface,
+                                     const MeshTexture& texture) {
+  const TexturedVertices textured = textured_vertices(mesh, texture);
+  std::vector<Rational3> points;
+  points.reserve(textured.vertex.size());
+  for (const std::uint32_t v : textured.vertex) points.push_back(mesh.vertices[v]);
+  std::vector<float> places;
+  for (const auto& [u, v] : textured.places) places.insert(places.end(), {u, 1 - v});
+  std::vector<std::uint32_t> indices;
+  for (const std::uint32_t face : surface.face_of) {
+    for (std::uint32_t c = mesh.face_begin[face]; c < mesh.face_begin[face + 1]; ++c) {
+      indices.push_back(textured.corners[c]);
+    }
+  }
+  const std::size_t positions = document.add_floats(coordinates_of(points), 3, GlbTarget::kVertices);
+  const std::size_t image_places = document.add_floats(places, 2, GlbTarget::kVertices);
+  document.materials.push_back({{"name", "photographs"},
+                                {"pbrMetallicRoughness",
+                                 {{"baseColorTexture", {{"index", document.add_texture(texture.png)}}},
+                                  {"metallicFactor", 0.0},
+                                  {"roughnessFactor", 1.0}}}});
+  return {{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", image_places}}},
+          {"indices", document.add_indices(indices)},
+          {"material", document.materials.size() - 1},
+          {"mode", static_cast<std::size_t>(GlbMode::kTriangles)}};
+}
+
 // sRGB becomes linear light, which has more than eight bits.
 std::size_t add_vertex_colors(GlbDocument& document, const std::vector<std::array<std::uint8_t, 3>>& colors) {
   constexpr std::uint16_t kFull = 65535;
@@ -424,12 +461,11 @@ std::string glb_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
   const double y = nearest_double(options.offset[1]);
   const double z = nearest_double(options.offset[2]);
   document.nodes = {{{"mesh", 0}, {"matrix", {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, x, z, 0 - y, 1}}}};
-  std::vector<float> coordinates;
-  coordinates.reserve(3 * mesh.vertices.size());
-  for (const Rational3& vertex : mesh.vertices) {
-    for (const Rational& number : vertex) coordinates.push_back(nearest_float(number));
+  if (!options.texture.none()) {
+    document.meshes.push_back({{"primitives", {textured_primitive(document, mesh, surface, options.texture)}}});
+    return document.bytes();
   }
-  const std::size_t positions = document.add_floats(coordinates, 3, GlbTarget::kVertices);
+  const std::size_t positions = document.add_floats(coordinates_of(mesh.vertices), 3, GlbTarget::kVertices);
   const bool colored = !options.vertex_colors.empty();
   const std::size_t colors = colored ? add_vertex_colors(document, options.vertex_colors) : 0;
   GlbDocument::Json primitives = GlbDocument::Json::array();

@@ -33,6 +33,7 @@ enum MeshTrait : unsigned {
   kFaceGroups = 16U,    ///< faces in groups
   kVertexColors = 32U,  ///< a colour for each vertex
   kNamedParts = 64U,    ///< runs of faces with names, which FILE#NAME reads
+  kTexture = 128U,      ///< an image on the faces
 };
 
 /// One mesh format. Readers, writers, `--help`, messages and the fuzzer take all they know of formats from here.

@@ -122,6 +122,119 @@ std::string binary_stl(const Mesh& mesh, const MeshSurface& surface, const Ratio
   return bytes;
 }
 
+// The places of the corners in the image, and the material that names it; nothing without a texture.
+TexturedVertices obj_texture(std::string& text, const Mesh& mesh, const MeshTexture& texture) {
+  if (texture.none()) return {};
+  TexturedVertices textured = textured_vertices(mesh, texture);
+  for (const auto& place : textured.places) {
+    text += "vt ";
+    append_number(text, place[0]);
+    text += ' ';
+    append_number(text, place[1]);
+    text += '\n';
+  }
+  text += "usemtl texture\n";
+  return textured;
+}
+
+// The parts of a PLY file. With a texture its vertices are those of textured_vertices.
+class PlyWriter {
+ public:
+  PlyWriter(const Mesh& mesh, const MeshWriteOptions& options)
+      : mesh_(mesh), options_(options), colored_(!options.vertex_colors.empty()), textured_(!options.texture.none()) {
+    if (textured_) vertices_ = textured_vertices(mesh, options.texture);
+  }
+
+  [[nodiscard]] std::string header() const {
+    std::string text = "ply\nformat ";
+    text += options_.binary ? "binary_little_endian" : "ascii";
+    text += " 1.0\n" + offset_text("comment ", options_.offset, "\n");
+    const FaceGroups& groups = options_.groups;
+    for (std::size_t g = 0; g < groups.names.size(); ++g) {
+      text += "comment group " + std::to_string(g) + " " + group_word(groups.names[g]) + "\n";
+    }
+    if (textured_) text += "comment TextureFile " + image_file_name(options_.texture.stem) + "\n";
+    text += "element vertex " + std::to_string(vertex_count());
+    text += "\nproperty double x\nproperty double y\nproperty double z\n";
+    if (colored_) text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
+    if (textured_) text += "property float texture_u\nproperty float texture_v\n";
+    text += "element face " + std::to_string(mesh_.face_count()) + "\nproperty list int int vertex_indices\n";
+    if (!groups.none()) {
+      text += "property int group\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n";
+    }
+    return text + "end_header\n";
+  }
+
+  void append_vertices(std::string& bytes) const {
+    for (std::size_t i = 0; i < vertex_count(); ++i) {
+      const std::size_t v = textured_ ? vertices_.vertex[i] : i;
+      options_.binary ? append_binary_vertex(bytes, i, v) : append_text_vertex(bytes, i, v);
+    }
+  }
+
+  void append_faces(std::string& bytes) const {
+    const std::vector<std::uint32_t>& corners = textured_ ? vertices_.corners : mesh_.corners;
+    for (std::size_t f = 0; f < mesh_.face_count(); ++f) {
+      const auto face = std::span(corners).subspan(mesh_.face_begin[f], mesh_.face(f).size());
+      options_.binary ? append_binary_face(bytes, f, face) : append_text_face(bytes, f, face);
+    }
+  }
+
+ private:
+  [[nodiscard]] std::size_t vertex_count() const { return textured_ ? vertices_.vertex.size() : mesh_.vertices.size(); }
+
+  void append_binary_vertex(std::string& bytes, std::size_t i, std::size_t v) const {
+    for (const Rational& x : mesh_.vertices[v]) append_little_endian(bytes, nearest_double(x));
+    if (colored_) {
+      for (const std::uint8_t x : options_.vertex_colors[v]) append_little_endian(bytes, x);
+    }
+    if (textured_) {
+      for (const float x : vertices_.places[i]) append_little_endian(bytes, x);
+    }
+  }
+
+  void append_text_vertex(std::string& text, std::size_t i, std::size_t v) const {
+    append_point(text, mesh_.vertices[v], options_.exact);
+    text.pop_back();  // the end of the line
+    if (colored_) append_color(text, options_.vertex_colors[v]);
+    if (textured_) {
+      for (const float x : vertices_.places[i]) {
+        text += ' ';
+        append_number(text, x);
+      }
+    }
+    text += '\n';
+  }
+
+  void append_binary_face(std::string& bytes, std::size_t f, std::span<const std::uint32_t> face) const {
+    append_little_endian(bytes, static_cast<std::uint32_t>(face.size()));
+    for (const std::uint32_t v : face) append_little_endian(bytes, v);
+    if (options_.groups.none()) return;
+    append_little_endian(bytes, options_.groups.of_face[f]);
+    for (const std::uint8_t x : group_color(options_.groups.of_face[f])) append_little_endian(bytes, x);
+  }
+
+  void append_text_face(std::string& text, std::size_t f, std::span<const std::uint32_t> face) const {
+    append_number(text, face.size());
+    for (const std::uint32_t v : face) {
+      text += ' ';
+      append_number(text, v);
+    }
+    if (!options_.groups.none()) {
+      text += ' ';
+      append_number(text, options_.groups.of_face[f]);
+      append_color(text, group_color(options_.groups.of_face[f]));
+    }
+    text += '\n';
+  }
+
+  const Mesh& mesh_;
+  const MeshWriteOptions& options_;
+  bool colored_;
+  bool textured_;
+  TexturedVertices vertices_;
+};
+
 [[noreturn]] void refuse_format(const std::string& path, const std::string& what) {
   throw FileError(FileProblem::kUnreadable, path + ": " + what);
 }
@@ -148,15 +261,20 @@ std::string obj_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
   std::string text =
       "# " + std::to_string(mesh.vertices.size()) + " vertices, " + std::to_string(mesh.face_count()) + " faces\n";
   text += offset_text("# ", options.offset, "\n");
+  if (!options.texture.none()) text += "mtllib " + material_file_name(options.texture.stem) + "\n";
   for (const Rational3& p : mesh.vertices) {
     text += "v ";
     append_point(text, p, options.exact);
   }
+  const TexturedVertices textured = obj_texture(text, mesh, options.texture);
   const auto append_face = [&](std::size_t f) {
     text += 'f';
-    for (const std::uint32_t v : mesh.face(f)) {
+    for (std::uint32_t c = mesh.face_begin[f]; c < mesh.face_begin[f + 1]; ++c) {
       text += ' ';
-      append_number(text, v + 1);
+      append_number(text, mesh.corners[c] + 1);
+      if (options.texture.none()) continue;
+      text += '/';
+      append_number(text, textured.corners[c] + 1);
     }
     text += '\n';
   };
@@ -181,60 +299,10 @@ std::string stl_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
 }
 
 std::string ply_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
-  std::string bytes = "ply\nformat ";
-  bytes += options.binary ? "binary_little_endian" : "ascii";
-  bytes += " 1.0\n" + offset_text("comment ", options.offset, "\n");
-  const FaceGroups& groups = options.groups;
-  for (std::size_t g = 0; g < groups.names.size(); ++g) {
-    bytes += "comment group " + std::to_string(g) + " " + group_word(groups.names[g]) + "\n";
-  }
-  bytes += "element vertex " + std::to_string(mesh.vertices.size());
-  bytes += "\nproperty double x\nproperty double y\nproperty double z\n";
-  const bool colored = !options.vertex_colors.empty();
-  if (colored) bytes += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
-  bytes += "element face " + std::to_string(mesh.face_count()) + "\nproperty list int int vertex_indices\n";
-  if (!groups.none()) {
-    bytes += "property int group\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n";
-  }
-  bytes += "end_header\n";
-  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
-    const Rational3& p = mesh.vertices[v];
-    if (options.binary) {
-      for (const Rational& x : p) append_little_endian(bytes, nearest_double(x));
-      if (colored) {
-        for (const std::uint8_t x : options.vertex_colors[v]) append_little_endian(bytes, x);
-      }
-      continue;
-    }
-    append_point(bytes, p, options.exact);
-    if (!colored) continue;
-    bytes.pop_back();  // the end of the line
-    append_color(bytes, options.vertex_colors[v]);
-    bytes += '\n';
-  }
-  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
-    const auto face = mesh.face(f);
-    if (options.binary) {
-      append_little_endian(bytes, static_cast<std::uint32_t>(face.size()));
-      for (const std::uint32_t v : face) append_little_endian(bytes, v);
-      if (!groups.none()) {
-        append_little_endian(bytes, groups.of_face[f]);
-        for (const std::uint8_t x : group_color(groups.of_face[f])) append_little_endian(bytes, x);
-      }
-      continue;
-    }
-    append_number(bytes, face.size());
-    for (const std::uint32_t v : face) {
-      bytes += ' ';
-      append_number(bytes, v);
-    }
-    if (!groups.none()) {
-      bytes += ' ';
-      append_number(bytes, groups.of_face[f]);
-      append_color(bytes, group_color(groups.of_face[f]));
-    }
-    bytes += '\n';
-  }
+  const PlyWriter writer(mesh, options);
+  std::string bytes = writer.header();
+  writer.append_vertices(bytes);
+  writer.append_faces(bytes);
   return bytes;
 }
 
@@ -286,7 +354,16 @@ void write_mesh(const std::string& path, const Mesh& mesh, const MeshWriteOption
     refuse_format(path, "the format has no colours of vertices; write " + mesh_format_names(kVertexColors));
   }
   refuse_infinite(mesh, format, options);
-  write_file(path, format.write(mesh, options));
+  if (options.texture.none()) return write_file(path, format.write(mesh, options));
+  if (!options.vertex_colors.empty() || !options.groups.none()) {
+    refuse_format(path, "a texture excludes colours of vertices and groups of faces");
+  }
+  const std::string extension(format.extension);
+  require_texture(path, mesh, options.texture, extension);
+  MeshWriteOptions named = options;
+  named.texture.stem = texture_stem(path);
+  write_texture_files(path, options.texture, extension);
+  write_file(path, format.write(mesh, named));
 }
 
 }  // namespace nef

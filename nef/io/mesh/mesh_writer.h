@@ -11,6 +11,7 @@
 #include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 #include "nef/io/mesh/face_groups.h"
+#include "nef/io/mesh/mesh_texture.h"
 
 namespace nef {
 
@@ -33,6 +34,9 @@ struct MeshWriteOptions {
   FaceGroups groups = {};
   /// Red, green and blue (sRGB) of every vertex, or none; PLY and GLB only.
   std::vector<std::array<std::uint8_t, 3>> vertex_colors = {};
+  /// An image on the faces, or none; OBJ, PLY and GLB only, and neither with groups nor with colours of vertices. GLB
+  /// contains the image; the others name a file beside them (NAME_texture.png, and NAME.mtl of an OBJ).
+  MeshTexture texture = {};
   /// What was subtracted from all coordinates of the mesh, which are written as they are: GLB and 3MF place the mesh
   /// there, so readers put it back; OFF, OBJ, PLY and STL note it in a comment or in the header. Dyadic.
   Rational3 offset = {};

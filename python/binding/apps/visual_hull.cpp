@@ -20,9 +20,14 @@
 #include "apps/visual_hull/masks/cut_out.h"
 #include "apps/visual_hull/scene/axes.h"
 #include "apps/visual_hull/scene/images.h"
+#include "apps/visual_hull/texture/hull_texture.h"
 #include "binding/base/bindings.h"
 #include "nef/base/in_quotes.h"
+#include "nef/export/to_mesh.h"
 #include "nef/io/file_bytes.h"
+#include "nef/io/mesh/mend_rounded.h"
+#include "nef/io/mesh/mesh_formats.h"
+#include "nef/io/mesh/mesh_writer.h"
 
 namespace nef::python {
 namespace {
@@ -52,6 +57,96 @@ void write_mask(const Mask& mask, const std::string& path) {
     image.rgb.insert(image.rgb.end(), 3, *pixel != 0 ? std::uint8_t{255} : std::uint8_t{0});
   }
   write_file(path, view::png_bytes(image));
+}
+
+// An array of shape (H, W, 3), red, green and blue.
+view::Image image_of(const Mask& pixels, const char* what) {
+  if (pixels.ndim() != 3 || pixels.shape(2) != 3 || pixels.size() == 0) {
+    throw InputError(std::string(what) + " is an array of shape (H, W, 3)");
+  }
+  view::Image image;
+  image.height = static_cast<std::uint32_t>(pixels.shape(0));
+  image.width = static_cast<std::uint32_t>(pixels.shape(1));
+  image.rgb.assign(pixels.data(), pixels.data() + pixels.size());
+  return image;
+}
+
+void write_photograph(const Mask& pixels, const std::string& path) {
+  write_file(path, view::png_bytes(image_of(pixels, "a photograph")));
+}
+
+// A hull's mesh with its texture.
+struct TexturedMesh {
+  Mesh mesh;
+  nef::visual_hull::HullTexture texture;
+};
+
+template <typename Number>
+py::array_t<Number> array_of(const std::vector<py::ssize_t>& shape) {
+  return py::array_t<Number>(shape);
+}
+
+// (vertices, triangles, places of their corners, image, share that no view sees)
+py::tuple texture_tuple(const TexturedMesh& made) {
+  const auto count = static_cast<py::ssize_t>(made.mesh.vertices.size());
+  const auto faces = static_cast<py::ssize_t>(made.mesh.face_count());
+  auto vertices = array_of<double>({count, 3});
+  double* number = vertices.mutable_data();
+  for (const Rational3& p : made.mesh.vertices) {
+    for (const Rational& x : p) *number++ = nearest_double(x);
+  }
+  auto triangles = array_of<std::uint32_t>({faces, 3});
+  std::copy(made.mesh.corners.begin(), made.mesh.corners.end(), triangles.mutable_data());
+  auto places = array_of<float>({faces, 3, 2});
+  float* place = places.mutable_data();
+  for (const auto& [u, v] : made.texture.corners) {
+    *place++ = u;
+    *place++ = v;
+  }
+  const cv::Mat& bgr = made.texture.image;
+  auto image = array_of<std::uint8_t>({bgr.rows, bgr.cols, 3});
+  std::uint8_t* channel = image.mutable_data();
+  for (auto pixel = bgr.begin<cv::Vec3b>(); pixel != bgr.end<cv::Vec3b>(); ++pixel) {
+    for (const int i : {2, 1, 0}) *channel++ = (*pixel)[i];
+  }
+  return py::make_tuple(vertices, triangles, places, image, made.texture.unseen);
+}
+
+// The hull's triangles with coordinates that all formats keep, repaired where rounding made them cross.
+Mesh float_mesh(const Polyhedron& hull, const Monitor& monitor) {
+  Mesh mesh = to_mesh(hull, {}, monitor).mesh;
+  MendedMesh rounded = round_mesh(mesh, rounding_to(FileNumbers::kFloats), monitor);
+  return rounded.legal ? std::move(rounded.mesh) : std::move(mesh);
+}
+
+using Vertices = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Triangles = py::array_t<std::uint32_t, py::array::c_style | py::array::forcecast>;
+using Places = py::array_t<float, py::array::c_style | py::array::forcecast>;
+
+void write_textured(const std::string& path, const Vertices& vertices, const Triangles& triangles, const Places& places,
+                    const Mask& pixels) {
+  if (vertices.ndim() != 2 || vertices.shape(1) != 3 || triangles.ndim() != 2 || triangles.shape(1) != 3 ||
+      places.size() != 2 * triangles.size()) {
+    throw InputError("a texture needs vertices (N, 3), triangles (M, 3) and places (M, 3, 2)");
+  }
+  Mesh mesh;
+  for (py::ssize_t v = 0; v < vertices.shape(0); ++v) {
+    mesh.vertices.push_back(
+        {exact_rational(vertices.at(v, 0)), exact_rational(vertices.at(v, 1)), exact_rational(vertices.at(v, 2))});
+  }
+  MeshWriteOptions options;
+  for (py::ssize_t t = 0; t < triangles.shape(0); ++t) {
+    const std::array<std::uint32_t, 3> face{triangles.at(t, 0), triangles.at(t, 1), triangles.at(t, 2)};
+    for (const std::uint32_t v : face) {
+      if (v >= mesh.vertices.size()) throw InputError("a triangle names vertex " + std::to_string(v));
+    }
+    mesh.push_face(face);
+  }
+  for (const float* place = places.data(); place != places.data() + places.size(); place += 2) {
+    options.texture.corners.push_back({place[0], place[1]});
+  }
+  options.texture.png = view::png_bytes(image_of(pixels, "the image of a texture"));
+  write_mesh(path, mesh, options);
 }
 
 nef::visual_hull::WorldBox box_of(const py::object& box) {
@@ -164,16 +259,24 @@ py::list suspects_of(const nef::visual_hull::Result& made) {
 }
 
 py::dict compute(const nef::visual_hull::Scene& scene, const std::string& folder,
-                 const nef::visual_hull::Options& options, const py::object& progress) {
+                 const nef::visual_hull::Options& options, bool textured, const py::object& progress) {
   const ProgressFunction told(progress);
-  const nef::visual_hull::Result made = call(kSmallCall, [=](const Monitor& monitor) {
+  const auto [made, texture] = call(kSmallCall, [=](const Monitor& monitor) {
     const nef::visual_hull::Progress forward = [&](nef::visual_hull::Phase phase, const std::string& name,
                                                    std::size_t done, std::size_t total) {
       told(monitor, std::string(nef::visual_hull::phase_name(phase)), name, done, total);
     };
     nef::visual_hull::Options watched = options;
     watched.monitor = monitor.on_threads(options.monitor.threads());
-    return nef::visual_hull::compute(scene, folder, watched, forward);
+    nef::visual_hull::Result hull = nef::visual_hull::compute(scene, folder, watched, forward);
+    std::optional<TexturedMesh> on_it;
+    if (textured && !hull.vanished) {
+      Mesh mesh = float_mesh(hull.hull, watched.monitor);
+      nef::visual_hull::HullTexture found =
+          nef::visual_hull::hull_texture(mesh, hull.views, hull.origin, watched.monitor);
+      on_it = TexturedMesh{std::move(mesh), std::move(found)};
+    }
+    return std::pair(std::move(hull), std::move(on_it));
   });
   py::dict result;
   result["hull"] = made.hull;
@@ -186,6 +289,7 @@ py::dict compute(const nef::visual_hull::Scene& scene, const std::string& folder
   result["notes"] = made.notes;
   result["pieces"] = made.pieces;
   result["suspects"] = suspects_of(made);
+  result["texture"] = texture ? py::object(texture_tuple(*texture)) : py::object(py::none());
   result["refinement"] = made.refinement ? py::object(refinement_dict(*made.refinement)) : py::object(py::none());
   return result;
 }
@@ -216,17 +320,17 @@ nef::visual_hull::Scene turntable_of(const py::tuple& given) {
 }
 
 py::dict from_file(const std::string& path, const nef::visual_hull::Options& options, const std::string& matrices,
-                   const std::string& up, const py::object& turntable, const py::object& progress) {
+                   const std::string& up, const py::object& turntable, bool textured, const py::object& progress) {
   const std::filesystem::path file(path);
   nef::visual_hull::Scene scene =
       turntable.is_none() ? nef::visual_hull::read_scene(file, {matrices}) : turntable_of(py::tuple(turntable));
   if (!up.empty()) nef::visual_hull::turn_up(scene, up);
-  return compute(scene, nef::visual_hull::scene_folder(file).string(), options, progress);
+  return compute(scene, nef::visual_hull::scene_folder(file).string(), options, textured, progress);
 }
 
 py::dict from_views(const std::vector<std::string>& names, const std::vector<std::string>& images,
                     const py::list& matrices, const py::object& lenses, const std::string& folder,
-                    const nef::visual_hull::Options& options, const py::object& progress) {
+                    const nef::visual_hull::Options& options, bool textured, const py::object& progress) {
   nef::visual_hull::Scene scene;
   for (std::size_t i = 0; i < names.size(); ++i) {
     nef::visual_hull::View& view = scene.views.emplace_back();
@@ -235,7 +339,7 @@ py::dict from_views(const std::vector<std::string>& names, const std::vector<std
     view.camera = nef::visual_hull::Camera(names[i], matrix_of(matrices[i]));
     if (!lenses.is_none()) view.distortion = distortion_of(py::list(lenses)[i]);
   }
-  return compute(scene, folder, options, progress);
+  return compute(scene, folder, options, textured, progress);
 }
 
 cv::Mat mask_of(const Mask& mask) {
@@ -343,6 +447,8 @@ void define_module(py::module_& m) {
   py::module_::import("nef._nef");
   py::class_<nef::visual_hull::Options>(m, "Options").def(py::init(&options_of));
   m.def("write_mask", &write_mask);
+  m.def("write_photograph", &write_photograph);
+  m.def("write_textured", &write_textured);
   m.def("from_file", &from_file);
   m.def("from_views", &from_views);
   m.def("refine", &refine);

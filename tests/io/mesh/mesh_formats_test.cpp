@@ -178,7 +178,7 @@ TEST_CASE("The documentation has the table of formats") {
     std::string row = "| `." + std::string(format.extension) + "` | " + spelled(format.numbers(false)) + " | " +
                       spelled(format.has_two_forms() ? format.binary : FileNumbers::kNone);
     for (const MeshTrait trait :
-         {kFractions, kPolygons, kNamedVertices, kWires, kFaceGroups, kVertexColors, kNamedParts}) {
+         {kFractions, kPolygons, kNamedVertices, kWires, kFaceGroups, kVertexColors, kNamedParts, kTexture}) {
       row += " | " + yes(format.has(trait));
     }
     CAPTURE(row);

@@ -3,7 +3,7 @@
 // Cameras with parallel lines of sight: hulls of masks along the axes are sets of voxels that can be counted.
 #include <catch2/catch.hpp>
 
-#include "apps/visual_hull/color/depth_map.h"
+#include "apps/visual_hull/color/projection.h"
 #include "apps/visual_hull/scene/understanding.h"
 #include "nef/base/error.h"
 #include "tests/visual_hull/helpers.h"
@@ -125,7 +125,7 @@ TEST_CASE("What is no camera, and what needs pinholes, is refused by name") {
   options.suspects = false;
   options.refine = true;
   CHECK_THROWS_AS(compute(scene, {}, options), nef::InputError);
-  CHECK_THROWS_AS(DepthMap(along(0), PixelOrigin::kCenter, 4, 4), nef::InputError);
+  CHECK_THROWS_WITH(ImageProjection(along(0), PixelOrigin::kCenter, "--color"), Contains("--color is for pinhole"));
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ def units(build: str) -> dict[str, list[str]]:
             result[name] = [name]
         elif os.path.exists(name):
             with open(name, encoding="utf-8") as file:
-                result[name] = re.findall(r'^#include "(.*\.cpp)"$', file.read(), re.MULTILINE)
+                included = re.findall(r'^#include "(.*\.cpp)"$', file.read(), re.MULTILINE)
+                result[name] = [os.path.relpath(source) for source in included]  # as git names them
     return {name: sources for name, sources in result.items() if sources}
 
 

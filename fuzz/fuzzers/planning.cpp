@@ -9,8 +9,10 @@
 #include <optional>
 
 #include "apps/planner/path/question.h"
+#include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/search/search.h"
 #include "fuzz/grid.h"
+#include "nef/base/error.h"
 
 namespace nef::fuzz {
 namespace {
@@ -189,6 +191,7 @@ class PlanningCase {
     const planner::Problem problem(scene_);
     static_cast<void>(case_.valid(problem.free_space().set(), "the free space"));
     compare(problem.free_space(), truth);
+    prove(problem.free_space());
     for (int i = 0; i < 3; ++i) ask(problem, truth);
   }
 
@@ -244,6 +247,24 @@ class PlanningCase {
     std::uint64_t positions = 1;
     for (std::size_t k = 0; k < 3; ++k) positions *= static_cast<std::uint64_t>(high_[k] - low_[k]) + 1;
     case_.count("positions", positions);
+  }
+
+  // Proofs that passages are tight hold; what is no solid has none, and not every place of a solid has one.
+  void prove(const planner::FreeSpace& free) {
+    if (free.passages().empty() || scene_.contact == ContactRule::kForbid) return;
+    free.build_roadmap();
+    std::optional<planner::PathProof> proof;
+    try {
+      proof = planner::make_tight_proof(scene_, free);
+    } catch (const InputError&) {
+      return;
+    }
+    case_.count(proof ? "tight, proved" : "tight, not proved");
+    if (!proof) return;
+    const std::optional<std::string> complaint = planner::complaint_about(*proof);
+    Case::require(!complaint, "a proof of tight passages: " + complaint.value_or(""));
+    const planner::PathProof read = planner::parse_proof(planner::proof_text(*proof), "proof");
+    Case::require(!planner::complaint_about(read), "a proof of tight passages that was written and read");
   }
 
   void ask(const planner::Problem& problem, const Positions& truth) {

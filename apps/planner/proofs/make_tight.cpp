@@ -33,7 +33,7 @@ class TightSearch {
  public:
   TightSearch(const PathProof::Claim& claim, const Rational3& position, std::vector<Rational3> along,
               const Monitor& monitor)
-      : claim_(claim), along_(std::move(along)), monitor_(monitor) {
+      : along_(std::move(along)), monitor_(monitor) {
     for (std::uint32_t side = 0; claim.box && side < 6; ++side) {
       const std::size_t axis = side % 3;
       if (position[axis] != (*claim.box)[side / 3][axis]) continue;
@@ -122,7 +122,6 @@ class TightSearch {
     return result;
   }
 
-  const PathProof::Claim& claim_;
   const std::vector<Rational3> along_;
   Monitor monitor_;
   std::vector<Known> known_;

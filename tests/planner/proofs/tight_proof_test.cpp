@@ -3,11 +3,14 @@
 // Proofs that passages are tight: they hold where free space has such passages, there are none elsewhere, and what is
 // changed in one is refused.
 #include <catch2/catch.hpp>
+#include <random>
 
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/proofs/answer_proof.h"
 #include "apps/planner/proofs/proof_file.h"
 #include "nef/base/error.h"
+#include "nef/construct/construct.h"
+#include "nef/geometry/vectors.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
 
@@ -84,6 +87,48 @@ TEST_CASE("there are no proofs where no passage is tight") {
   const FreeSpace free(free_positions(wide));
   CHECK_FALSE(make_tight_proof(wide, free));
   CHECK_THROWS_AS(proof_of_tight_passages(wide, free), InputError);
+}
+
+TEST_CASE("random boxes on a grid: positions near a tight passage are free along it only") {
+  int proved = 0;
+  int unproved = 0;
+  for (unsigned seed = 0; seed < seeds(8); ++seed) {
+    INFO("seed " << seed);
+    std::mt19937 random(seed);
+    const auto upto = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+    Scene scene;
+    scene.robot = make_box({0, 0, 0}, {1, 1, 1});
+    scene.box = {Rational3{0, 0, 0}, Rational3{5, 5, 5}};
+    for (int i = 0; i < 9; ++i) {
+      const Rational3 low{upto(6), upto(6), upto(6)};
+      scene.obstacles.push_back(make_box(low, {low[0] + 1 + upto(3), low[1] + 1 + upto(3), low[2] + 1 + upto(3)}));
+      scene.obstacle_names.emplace_back("box");
+    }
+    const FreeSpace free(free_positions(scene));
+    if (free.passages().empty()) continue;
+    free.build_roadmap();
+    const std::optional<PathProof> proof = make_tight_proof(scene, free);
+    if (!proof) {
+      ++unproved;
+      continue;
+    }
+    ++proved;
+    CHECK(complaint_about(*proof).value_or("") == "");
+    for (std::size_t i = 0; i < proof->claim.path.size(); ++i) {
+      const std::vector<Rational3>& along = proof->claim.along[i];
+      for (int k = 0; k < 40; ++k) {
+        const Rational3 d{upto(7) - 3, upto(7) - 3, upto(7) - 3};
+        const Rational3 step{d[0] / 1000, d[1] / 1000, d[2] / 1000};
+        if (!free.is_free(ExactPoint(plus(proof->claim.path[i].position, step)))) continue;
+        const bool is_along = along.size() == 2   ? dot(cross(along[0], along[1]), d) == 0
+                              : along.size() == 1 ? is_zero(cross(along[0], d))
+                                                  : is_zero(d);
+        CHECK(is_along);
+      }
+    }
+  }
+  CHECK(proved > 2);
+  CHECK(unproved <= proved);
 }
 
 TEST_CASE("changed proofs of tight passages are refused") {

@@ -16,7 +16,7 @@ function(run)
   endif()
 endfunction()
 # setuptools writes beside the sources, so it works on a copy of what it needs.
-foreach(name pyproject.toml setup.py CMakeLists.txt LICENSE docs/python.md)
+foreach(name pyproject.toml setup.py nef/version.h LICENSE docs/python.md)
   configure_file(${SOURCE}/${name} ${WORK}/source/${name} COPYONLY)
 endforeach()
 run(${CMAKE_COMMAND} -E env NEF_BUILD_TREE=${TREE} ${PYTHON} -m pip wheel -q --no-build-isolation --no-deps --no-index

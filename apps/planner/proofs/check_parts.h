@@ -29,6 +29,9 @@ std::vector<Rational3> outer_planes(std::span<const Rational3> vectors);
 /// than the first one in which it is not zero; of two, these and their cross product. Nothing if they are dependent.
 std::optional<std::array<Rational3, 3>> tight_frame(std::span<const Rational3> along);
 
+/// Whether a direction is in the span of the vectors of a passage, which are linearly independent.
+bool is_along(std::span<const Rational3> along, const Rational3& direction);
+
 /// The sum of two vectors, neither zero, the shorter one (by the sum of absolute values) first multiplied by the
 /// largest power of two with which it is not the longer one: a direction near to the middle of theirs.
 Rational3 balanced_sum(const Rational3& a, const Rational3& b);

@@ -26,6 +26,11 @@ std::optional<std::array<Rational3, 3>> tight_frame(std::span<const Rational3> a
   return frame;
 }
 
+bool is_along(std::span<const Rational3> along, const Rational3& direction) {
+  if (along.empty()) return is_zero(direction);
+  return along.size() == 1 ? is_zero(cross(along[0], direction)) : dot(cross(along[0], along[1]), direction) == 0;
+}
+
 namespace {
 
 Rational length_of(const Rational3& v) { return abs(v[0]) + abs(v[1]) + abs(v[2]); }
@@ -107,16 +112,11 @@ class TightCheck {
     return std::nullopt;
   }
 
-  [[nodiscard]] bool is_along(const Rational3& d) const {
-    if (along_.empty()) return false;
-    return along_.size() == 1 ? is_zero(cross(along_[0], d)) : dot(cross(along_[0], along_[1]), d) == 0;
-  }
-
   [[nodiscard]] TightComplaint check(const Tight::Cone& cone, const Corners& corners) const {
     if (!cone.edge) {
       if (cone.contact >= normals_.size()) return "a cone names a contact that does not exist";
       for (const Rational3& d : corners) {
-        const bool may_be_free = is_along(d);
+        const bool may_be_free = is_along(along_, d);
         for (const Rational3& n : normals_[cone.contact]) {
           const int side = sgn(dot(n, d));
           if (side > 0 || (side == 0 && !may_be_free)) return "a contact does not block all directions of a cone";

@@ -208,4 +208,10 @@ std::optional<PathProof> make_path_proof(const MotionChecker& checker, std::span
   return PathProver(checker, poses, known).run();
 }
 
+std::optional<PathProof> make_path_proof(const MotionChecker& checker, std::span<const RigidPose> poses) {
+  CheckLimits limits;
+  limits.keep_parts = true;
+  return make_path_proof(checker, poses, certify(checker, poses, MotionTiming::kSlerp, limits));
+}
+
 }  // namespace nef::planner

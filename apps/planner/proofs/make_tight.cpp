@@ -74,14 +74,9 @@ class TightSearch {
     std::optional<std::uint32_t> number = std::nullopt;  // in the proof, which has the contacts that are used
   };
 
-  [[nodiscard]] bool is_along(const Rational3& d) const {
-    if (along_.empty()) return false;
-    return along_.size() == 1 ? is_zero(cross(along_[0], d)) : dot(cross(along_[0], along_[1]), d) == 0;
-  }
-
   [[nodiscard]] bool blocks(const OpenCone& cone, const ConeCorners& corners) const {
     return std::all_of(corners.begin(), corners.end(), [&](const Rational3& d) {
-      const int most = is_along(d) ? 0 : -1;
+      const int most = is_along(along_, d) ? 0 : -1;
       return std::all_of(cone.begin(), cone.end(),
                          [&](const Integer3& n) { return sgn(dot(to_rational(n), d)) <= most; });
     });
@@ -89,7 +84,7 @@ class TightSearch {
 
   [[nodiscard]] std::size_t edge_to_halve(const ConeCorners& corners, unsigned depth) const {
     std::array<bool, 3> along{};
-    for (std::size_t k = 0; k < 3; ++k) along[k] = is_along(corners[k]);
+    for (std::size_t k = 0; k < 3; ++k) along[k] = is_along(along_, corners[k]);
     const auto count = std::count(along.begin(), along.end(), true);
     if (depth % 2 == 1 || count == 0 || count == 3) return widest_edge(corners);
     // Opposite to the only corner that is along the passage, or to the only one that is not.
@@ -138,12 +133,10 @@ std::optional<PathProof> make_tight_proof(const Scene& scene, const FreeSpace& f
     const auto cell = std::find_if(passage.cells.begin(), passage.cells.end(),
                                    [&](CellId c) { return free.cells().dimension(c) == passage.dimension; });
     const RigidPose pose{free.point_in(*cell, monitor), {1, 0, 0, 0}};
-    CheckLimits limits;
-    limits.keep_parts = true;
-    const CertifiedPath known = certify(checker, std::span(&pose, 1), MotionTiming::kSlerp, limits);
-    if (known.status != MotionVerdict::Status::kFree) return std::nullopt;
-    std::optional<PathProof> stays = make_path_proof(checker, std::span(&pose, 1), known);
-    if (!stays || stays->motions[0].size() != 1) return std::nullopt;
+    std::optional<PathProof> stays = make_path_proof(checker, std::span(&pose, 1));
+    if (!stays || stays->claim.status != PathProof::Claim::Status::kFree || stays->motions[0].size() != 1) {
+      return std::nullopt;
+    }
     std::vector<Rational3> along = directions_of_cell(free, *cell);
     std::optional<Tight> tight = TightSearch(stays->claim, pose.position, along, monitor).run();
     if (!tight) return std::nullopt;

@@ -134,6 +134,9 @@ struct PathProof {
 std::optional<PathProof> make_path_proof(const MotionChecker& checker, std::span<const RigidPose> poses,
                                          const CertifiedPath& known);
 
+/// The same for a path that is not certified yet.
+std::optional<PathProof> make_path_proof(const MotionChecker& checker, std::span<const RigidPose> poses);
+
 /// The proof that start and goal lie in different components of the free positions; nothing if there is none: both are
 /// in one component, the components have no distance, or only surfaces are in the way. The barrier is the boundary of
 /// the sum of a bounded component and a small cube, cut until each triangle is in the way of one pair of pieces. Costs

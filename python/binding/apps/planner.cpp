@@ -233,9 +233,7 @@ py::object prove_path(const plan::Scene& scene, const py::sequence& path) {
   const std::vector<plan::RigidPose> poses = poses_of(path);
   const std::optional<plan::PathProof> proof = call(kSmallCall, [scene, poses](const Monitor& monitor) {
     const auto checker = plan::MotionChecker::of_scene(plan::with_robot_as_in_its_file(scene, monitor), monitor);
-    plan::CheckLimits limits;
-    limits.keep_parts = true;
-    return plan::make_path_proof(checker, poses, plan::certify(checker, poses, plan::MotionTiming::kSlerp, limits));
+    return plan::make_path_proof(checker, poses);
   });
   return proof ? py::object(py::str(plan::proof_text(*proof))) : py::none();
 }

@@ -23,9 +23,7 @@ using ClaimStatus = PathProof::Claim::Status;
 // What the program does with --path and --proof.
 std::optional<PathProof> proof_of(const Scene& scene, const std::vector<RigidPose>& poses) {
   const MotionChecker checker = MotionChecker::of_scene(scene);
-  CheckLimits limits;
-  limits.keep_parts = true;
-  return make_path_proof(checker, poses, certify(checker, poses, MotionTiming::kSlerp, limits));
+  return make_path_proof(checker, poses);
 }
 
 // What is wrong with a proof for someone who has the scene and the path.

@@ -120,10 +120,10 @@ TEST_CASE("random boxes on a grid: positions near a tight passage are free along
         const Rational3 d{upto(7) - 3, upto(7) - 3, upto(7) - 3};
         const Rational3 step{d[0] / 1000, d[1] / 1000, d[2] / 1000};
         if (!free.is_free(ExactPoint(plus(proof->claim.path[i].position, step)))) continue;
-        const bool is_along = along.size() == 2   ? dot(cross(along[0], along[1]), d) == 0
-                              : along.size() == 1 ? is_zero(cross(along[0], d))
-                                                  : is_zero(d);
-        CHECK(is_along);
+        const bool leads_along = along.size() == 2   ? dot(cross(along[0], along[1]), d) == 0
+                                 : along.size() == 1 ? is_zero(cross(along[0], d))
+                                                     : is_zero(d);
+        CHECK(leads_along);
       }
     }
   }

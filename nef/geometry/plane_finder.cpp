@@ -1,8 +1,46 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/geometry/plane_finder.h"
 
+#include <algorithm>
+#include <cstdlib>
+#include <numeric>
+
+#include "nef/base/fast_path.h"
+#include "nef/number/int128.h"
+
 namespace nef {
 namespace {
+
+// x, y, z, w where they are below 2^62, and zeros.
+using Homogeneous = std::array<std::int64_t, 7>;
+
+// Three points over one denominator, which is below 2^62 like all the numbers; false if that is not so.
+bool over_one_denominator(std::array<Homogeneous, 3>& points) {
+  constexpr Int128 kLimit = Int128{1} << 62U;
+  Int128 common = points[0][3];
+  for (std::size_t k = 1; k < 3; ++k) {
+    const std::int64_t w = points[k][3];
+    if (w == points[0][3]) continue;
+    common *= w / common_divisor(w, static_cast<std::int64_t>(common));
+    if (common >= kLimit) return false;
+  }
+  for (Homogeneous& p : points) {
+    if (p[3] == common) continue;
+    const Int128 factor = common / p[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Int128 x = factor * p[i];
+      if (x >= kLimit || x <= -kLimit) return false;
+      p[i] = static_cast<std::int64_t>(x);
+    }
+    p[3] = static_cast<std::int64_t>(common);
+  }
+  return true;
+}
+
+std::uint64_t bits_of(const std::array<std::int64_t, 3>& v) {
+  return static_cast<std::uint64_t>(std::abs(v[0])) | static_cast<std::uint64_t>(std::abs(v[1])) |
+         static_cast<std::uint64_t>(std::abs(v[2]));
+}
 
 // p - o up to a positive factor.
 void difference(const PointTable& points, PointId p, PointId o, Integer3& out) {
@@ -27,7 +65,46 @@ PlaneId PlaneFinder::through(PlaneTable& planes, const PointTable& points, const
   return with_normal(planes, points, o);
 }
 
+// The same in machine integers, for points whose numbers over one denominator D are below 2^62: with N the product of
+// two differences of these numbers, the plane is N.(x D) = N.(a D). The factors of N, which is below 2^63 as the widths
+// of the differences add up to 62 bits at most, are divided out first; what then remains between N D and the offset is
+// a divisor of D. N D is below 2^125, and the offset, a sum of three such products, below 2^127.
+std::optional<PlaneId> PlaneFinder::through_small(PlaneTable& planes, const PointTable& points,
+                                                  const std::array<PointId, 3>& triangle) {
+  std::array<Homogeneous, 3> at;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!points.small_coordinates(triangle[k], at[k])) return std::nullopt;
+  }
+  if (!over_one_denominator(at)) return std::nullopt;
+  std::array<std::int64_t, 3> u;
+  std::array<std::int64_t, 3> v;
+  for (std::size_t i = 0; i < 3; ++i) {
+    u[i] = at[1][i] - at[0][i];
+    v[i] = at[2][i] - at[0][i];
+  }
+  if (std::bit_width(bits_of(u)) + std::bit_width(bits_of(v)) > 62) return std::nullopt;
+  std::array<std::int64_t, 3> n;
+  for (std::size_t i = 0; i < 3; ++i) n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
+  std::int64_t divisor = std::gcd(n[0], n[1]);
+  if (divisor != 1) divisor = std::gcd(divisor, n[2]);
+  if (divisor == 0) return PlaneId();
+  Int128 offset = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (divisor != 1) n[i] /= divisor;
+    offset -= static_cast<Int128>(n[i]) * at[0][i];
+  }
+  const std::int64_t denominator = at[0][3];
+  const std::int64_t common = common_divisor(denominator, offset);
+  const Int128 factor = denominator / common;
+  if (common != 1) offset /= common;
+  return planes.intern_primitive(
+      std::array<Int128, 5>{factor * n[0], factor * n[1], factor * n[2], offset});  // no part in R
+}
+
 PlaneId PlaneFinder::through(PlaneTable& planes, const PointTable& points, PointId o, PointId p, PointId q) {
+  if (kFastPaths) {
+    if (const std::optional<PlaneId> plane = through_small(planes, points, {o, p, q})) return *plane;
+  }
   difference(points, p, o, u_);
   difference(points, q, o, v_);
   for (std::size_t i = 0; i < 3; ++i) {

@@ -3,6 +3,9 @@
 // Planes through points, in lowest terms without a division of long numbers.
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "nef/geometry/plane_table.h"
 #include "nef/geometry/point_table.h"
 #include "nef/geometry/vectors.h"
@@ -15,10 +18,14 @@ class PlaneFinder {
   /// The plane through o of a normal, which is not zero; its positive side is where the normal points. O(1).
   PlaneId through(PlaneTable& planes, const PointTable& points, const Integer3& normal, PointId o);
 
-  /// The plane of three points, seen counterclockwise from its positive side; no plane if they are on one line. O(1).
+  /// The plane of three points, seen counterclockwise from its positive side; no plane if they are on one line. O(1):
+  /// in machine integers where the numbers are short, which gives the same plane
+  /// (tests/core/geometry/plane_finder_test).
   PlaneId through(PlaneTable& planes, const PointTable& points, PointId o, PointId p, PointId q);
 
  private:
+  static std::optional<PlaneId> through_small(PlaneTable& planes, const PointTable& points,
+                                              const std::array<PointId, 3>& triangle);
   PlaneId with_normal(PlaneTable& planes, const PointTable& points, PointId o);
 
   Integer3 u_, v_, n_;

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Vertices become points along a space-filling curve, and faces follow by their first point, so that planes are in
-// spatial order, too. The plane of a face comes from one of its triangles, whose orientation is that of the face: in
-// machine integers if the points have a small common denominator, where common factors are divided out while the
-// numbers are short, else by a `PlaneFinder`.
+// spatial order, too. The plane of a face comes from one of its triangles, whose orientation is that of the face.
 #include "nef/import/mesh_faces.h"
 
 #include <algorithm>
@@ -147,44 +145,8 @@ void MeshFaces::push(std::span<const std::uint32_t> ring, PlaneId plane) {
   f_.begin.push_back(static_cast<std::uint32_t>(f_.corners.size()));
 }
 
-// The same in machine integers, for points with a common denominator D whose differences are below 2^30: with
-// N = D^2 n, the plane is N.(x D) = N.(a D). The factors of N are divided out first; what then remains between N D and
-// the offset is a divisor of D. As D and the integers x D are below 2^40 and N is below 2^61, nothing exceeds 2^103.
-std::optional<PlaneId> MeshFaces::plane_of_small_triangle(std::span<const std::uint32_t> t) {
-  const MeshPoints& points = surface_.points;
-  if (!points.are_integers()) return std::nullopt;
-  const std::array<std::int64_t, 3> a = points.integers(f_.names[t[0]]);
-  const std::array<std::int64_t, 3> b = points.integers(f_.names[t[1]]);
-  const std::array<std::int64_t, 3> c = points.integers(f_.names[t[2]]);
-  std::array<std::int64_t, 3> u;
-  std::array<std::int64_t, 3> v;
-  constexpr std::int64_t kLimit = std::int64_t{1} << 30U;
-  for (std::size_t i = 0; i < 3; ++i) {
-    u[i] = b[i] - a[i];
-    v[i] = c[i] - a[i];
-    if (std::max(std::abs(u[i]), std::abs(v[i])) >= kLimit) return std::nullopt;
-  }
-  std::array<std::int64_t, 3> n;
-  for (std::size_t i = 0; i < 3; ++i) n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
-  std::int64_t divisor = std::gcd(n[0], n[1]);
-  if (divisor != 1) divisor = std::gcd(divisor, n[2]);
-  if (divisor == 0) return PlaneId();
-  Int128 offset = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (divisor != 1) n[i] /= divisor;
-    offset -= static_cast<Int128>(n[i]) * a[i];
-  }
-  const std::int64_t denominator = points.denominator();
-  const std::int64_t common = common_divisor(denominator, offset);
-  const Int128 factor = denominator / common;
-  if (common != 1) offset /= common;
-  return f_.planes.intern_primitive(
-      std::array<Int128, 5>{factor * n[0], factor * n[1], factor * n[2], offset});  // no part in R
-}
-
 // No plane if the points are on one line.
 PlaneId MeshFaces::plane_of_triangle(std::span<const std::uint32_t> t) {
-  if (const std::optional<PlaneId> plane = plane_of_small_triangle(t)) return *plane;
   return finder_.through(f_.planes, f_.points, PointId{t[0]}, PointId{t[1]}, PointId{t[2]});
 }
 

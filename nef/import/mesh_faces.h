@@ -48,7 +48,6 @@ class MeshFaces {
   [[nodiscard]] std::array<std::uint32_t, 3> corners_of(std::uint32_t triangle) const;
   void push(std::span<const std::uint32_t> ring, PlaneId plane);
   PlaneId plane_of_triangle(std::span<const std::uint32_t> t);
-  std::optional<PlaneId> plane_of_small_triangle(std::span<const std::uint32_t> t);
   void add_triangles(std::uint32_t face);
   void push_triangles(std::uint32_t face);
 

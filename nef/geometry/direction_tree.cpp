@@ -36,19 +36,26 @@ struct Cut {
     }
   }
 
-  // Keeps where n.x + d >= 0.
+  // Keeps where n.x + d >= 0. Most planes leave all of a polygon, or nothing.
   void by(const Double3& n, double d) {
+    std::array<double, 12> at;
+    std::size_t outside = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      at[i] = dot(n, corners[i]) + d;
+      outside += at[i] < 0 ? 1 : 0;
+    }
+    if (outside == count) count = 0;
+    if (outside == 0 || count == 0) return;
     Cut kept;
     kept.overflows = overflows;
     for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t j = i + 1 == count ? 0 : i + 1;
       const Double3& p = corners[i];
-      const Double3& q = corners[i + 1 == count ? 0 : i + 1];
-      const double of_p = dot(n, p) + d;
-      const double of_q = dot(n, q) + d;
-      if (of_p >= 0) kept.push(p);
+      const Double3& q = corners[j];
+      if (at[i] >= 0) kept.push(p);
       // The two ends of a segment are walked between twice.
-      if ((of_p < 0) == (of_q < 0) || count == 1 || (count == 2 && i == 1)) continue;
-      const double t = of_p / (of_p - of_q);
+      if ((at[i] < 0) == (at[j] < 0) || count == 1 || (count == 2 && i == 1)) continue;
+      const double t = at[i] / (at[i] - at[j]);
       kept.push({p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), p[2] + t * (q[2] - p[2])});
     }
     *this = kept;
@@ -89,6 +96,51 @@ bool separates_side(std::span<const Corner> first, std::span<const Corner> secon
   }
   return false;
 }
+
+// The sides of a polygon, to be asked about many boxes. Coordinates are at most 1 + 2^-15, so what is rounded here is
+// 2^-49 of the side at most, and covered like what separates_side rounds.
+class Sides {
+ public:
+  explicit Sides(std::span<const Corner> polygon) {
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Corner& p = polygon[i];
+      const Corner& q = polygon[i + 1 == polygon.size() ? 0 : i + 1];
+      Side& side = sides_[count_++];
+      side.normal = {p[1] - q[1], q[0] - p[0]};
+      const double slack = 2 * kSlack * (std::fabs(side.normal[0]) + std::fabs(side.normal[1]));
+      side.low = HUGE_VAL;
+      side.high = -HUGE_VAL;
+      for (const Corner& corner : polygon) {
+        const double at = side.normal[0] * corner[0] + side.normal[1] * corner[1];
+        side.low = std::min(side.low, at - slack);
+        side.high = std::max(side.high, at + slack);
+      }
+    }
+  }
+
+  // True if a line along a side surely has the polygon and the box on either side.
+  [[nodiscard]] bool separate(const Box& box) const {
+    return std::any_of(sides_.begin(), sides_.begin() + count_, [&box](const Side& side) {
+      double low = 0;
+      double high = 0;
+      for (std::size_t k = 0; k < 2; ++k) {
+        const double n = side.normal[k];
+        low += n * (n > 0 ? box.low[k] : box.high[k]);
+        high += n * (n > 0 ? box.high[k] : box.low[k]);
+      }
+      return low > side.high || high < side.low;
+    });
+  }
+
+ private:
+  struct Side {
+    Corner normal{};
+    double low = 0;  // the range of the polygon across the side, and the slack
+    double high = 0;
+  };
+  std::array<Side, 12> sides_;
+  std::ptrdiff_t count_ = 0;
+};
 
 }  // namespace
 
@@ -165,11 +217,8 @@ bool DirectionTree::find(std::span<const Double3> polygon, std::vector<std::uint
     const Shape& shape = (*seen)[k];
     const Face& face = faces_[k];
     if (shape.count == 0) continue;
-    const auto meets = [&shape](const Box& box) {
-      const std::array<Corner, 4> corners{Corner{box.low[0], box.low[1]}, Corner{box.high[0], box.low[1]},
-                                          Corner{box.high[0], box.high[1]}, Corner{box.low[0], box.high[1]}};
-      return shape.box.overlaps(box) && !separates_side(shape.polygon(), corners);
-    };
+    const Sides sides(shape.polygon());
+    const auto meets = [&](const Box& box) { return shape.box.overlaps(box) && !sides.separate(box); };
     face.tree.for_each_if(meets, [&](std::uint32_t i) {
       const std::span<const Corner> other =
           std::span(face.corners).subspan(face.corner_begin[i], face.corner_begin[i + 1] - face.corner_begin[i]);

@@ -203,6 +203,7 @@ void PlaneTable::append(const PlaneTable& other, std::size_t first, std::size_t 
 std::vector<std::uint32_t> PlaneTable::rows_of(const PlaneTable& other, const Monitor& monitor) const {
   constexpr std::size_t kTogether = 4096;
   std::vector<std::uint32_t> result(other.size(), kNotHere);
+  if (other.size() == 0 || size() == 0) return result;
   const bool other_is_smaller = other.size() < size();
   const IntegerRows& few = other_is_smaller ? other.rows_ : rows_;
   const IntegerRows& many = other_is_smaller ? rows_ : other.rows_;

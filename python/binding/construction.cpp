@@ -72,7 +72,7 @@ Polyhedron polygon(const py::iterable& rings) {
 }
 
 Polyhedron solid_from_mesh(py::handle vertices, py::handle faces, bool strict, bool surface, bool check,
-                           const std::string& crossings, double close) {
+                           const std::string& crossings, py::handle close) {
   const auto mesh = std::make_shared<const Mesh>(mesh_from_arrays(vertices, faces));
   MeshOptions options = mesh_options(crossings, close);
   options.strict = strict;
@@ -95,7 +95,7 @@ Polyhedron solid_from_mesh(py::handle vertices, py::handle faces, bool strict, b
 }
 
 py::object repaired(py::handle vertices, py::handle faces, bool strict, bool fill_holes, const std::string& crossings,
-                    double close) {
+                    py::handle close) {
   const auto mesh = std::make_shared<const Mesh>(mesh_from_arrays(vertices, faces));
   const MeshOptions rule = mesh_options(crossings, close);
   const RepairOptions options{.fill_holes = fill_holes,
@@ -126,7 +126,7 @@ py::object repaired(py::handle vertices, py::handle faces, bool strict, bool fil
                                made->record.pieces.dropped, volumes, made->holes, made->lid_share, made->has_lids));
 }
 
-Polyhedron evaluate(const std::string& text, const std::string& crossings, double close) {
+Polyhedron evaluate(const std::string& text, const std::string& crossings, py::handle close) {
   const MeshOptions meshes = mesh_options(crossings, close);
   using Made = std::pair<Polyhedron, Messages>;
   const bool openscad = lower_extension(text) == "csg";

@@ -27,7 +27,7 @@ std::string path_text(py::handle path) {
 
 namespace {
 
-Polyhedron read(py::handle path, bool strict, bool surface, const std::string& crossings, double close) {
+Polyhedron read(py::handle path, bool strict, bool surface, const std::string& crossings, py::handle close) {
   using Made = std::pair<Polyhedron, Messages>;
   const std::string file = path_text(path);
   MeshOptions options = mesh_options(crossings, close);
@@ -169,7 +169,8 @@ exact: exact coordinates in meshes (not STL). binary: binary STL or PLY. polygon
 rounding leaves them planar. manifold: where the solid touches itself, each sheet has vertices of its own (not in STL).
 recenter: subtract a point of few digits near the middle of the mesh, and return it (three floats, exact); GLB and 3MF
 files put it back when they are read. lenient: write a mesh even if rounding made it illegal and it could not be repaired, and
-warn; otherwise that is an UnsupportedError. text: .nef as text. format: such as "off", instead of the extension. What a mesh cannot store is reported as InputWarning.)")
+warn; otherwise that is an UnsupportedError. text: .nef as text. format: such as "off", instead of the extension. What a mesh cannot store (walls,
+wires, unbounded volumes) is reported as InputWarning; open boundaries become closed.)")
       .def("to_mesh", &mesh_of, py::arg("polygons") = false, py::arg("exact") = false, py::kw_only(),
            py::arg("manifold") = false, py::arg("recenter") = false, py::arg("repair") = false,
            R"(The boundary of the set's volumes as a closed mesh: (vertices, faces).
@@ -179,8 +180,8 @@ array of shape (M, 3), counterclockwise as seen from outside; or, with `polygons
 manifold: where the solid touches itself, each sheet gets vertices of its own. recenter: subtract a point near the middle
 from the vertices, and return it as a third value (floats that are exact; Fractions if `exact`). repair: move vertices to
 other floats nearby until no two triangles have anything in common but vertices and edges that they share, as `write`
-does; UnsupportedError if that fails. Without it rounding may flip slivers. What a mesh cannot store (open
-boundaries, walls, wires, unbounded volumes) is reported as InputWarning.)")
+does; UnsupportedError if that fails. Without it rounding may flip slivers. What a mesh cannot store (walls, wires,
+unbounded volumes) is reported as InputWarning; open boundaries become closed.)")
       .def("to_bytes", &bytes_of, "The set in the binary native format, exact and with a checksum.")
       .def(py::pickle([](const Polyhedron& a) { return bytes_of(a); },
                       [](const py::bytes& bytes) { return from_bytes(std::string(bytes)); }));

@@ -82,7 +82,7 @@ Tiles unite_in_tiles(const py::iterable& iterable, std::size_t limit, unsigned t
 }
 
 Tiles cut_mesh(py::handle vertices, py::handle faces, bool strict, bool surface, std::size_t limit, unsigned threads,
-               const std::string& crossings, double close) {
+               const std::string& crossings, py::handle close) {
   const Tiling tiling = tiling_of(limit);
   auto mesh = std::make_shared<const Mesh>(mesh_from_arrays(vertices, faces));
   MeshOptions options = mesh_options(crossings, close);

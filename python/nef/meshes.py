@@ -78,7 +78,7 @@ def from_mesh(vertices: Any, faces: Any = None, *, strict: bool = False, surface
       number: "refuse" (an InputError), "union" (enclosed at least once), "nonzero" (parts that are inside out, too),
       "odd" (overlaps are cavities), "outside" (not reachable from outside), "guess" (for meshes with holes: a winding
       number of at least one half). A warning reports the choice. "odd" and "outside" ignore the orientation of faces
-    - close: a percentage, such as 10 (True counts as 1). If above 0, a mesh that does not bound a solid is repaired as by
+    - close: a percentage; True is 10, as of `nef repair --close` without a number. If above 0, a mesh that does not bound a solid is repaired as by
       `nef repair --close`: its holes get lids if these have at most this percentage of the area of the mesh with lids.
       Lids are a guess, and reported as a warning
 

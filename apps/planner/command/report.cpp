@@ -158,6 +158,13 @@ std::string unrounded_text(const std::vector<std::size_t>& waypoints) {
   return text + '\n';
 }
 
+std::string duration_text(std::span<const double> times) {
+  if (times.empty()) return "";
+  std::ostringstream line;
+  line << "takes " << times.back() << " s\n";
+  return line.str();
+}
+
 std::string timed_text(const std::string& columns, const std::vector<double>& times,
                        const std::function<std::vector<double>(std::size_t waypoint)>& row) {
   std::string out = "t," + columns + '\n';

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ inline constexpr const char* kTranslationAndTurning = "translation and turning";
 
 /// A line that names way-points which could not be rounded; nothing if there are none.
 std::string unrounded_text(const std::vector<std::size_t>& waypoints);
+
+/// A line for people: how long a motion with these time stamps takes; nothing without time stamps.
+std::string duration_text(std::span<const double> times);
 
 /// Way-points with time stamps, a line each: t and the numbers of `row`, which stand under `columns`.
 std::string timed_text(const std::string& columns, const std::vector<double>& times,

@@ -100,7 +100,11 @@ class TranslationRun {
       }
       return extension == "path" || a_.se3 ? path_matrix(*answer.path, a_.se3) : path_text(*answer.path);
     };
-    tell(a_, {"plan", scene_.name, report, report_phases(answer.phases), for_people, text,
+    const auto print_all = [&] {
+      for_people();
+      std::cout << duration_text(times);
+    };
+    tell(a_, {"plan", scene_.name, report, report_phases(answer.phases), print_all, text,
               [&] { return view_layers(answer, scene_, free); }});
   }
 

@@ -221,6 +221,7 @@ int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& wi
   const auto for_people = [&] {
     if (!widest.is_null()) std::cout << widest_text(widest);
     print(a, answer, scene, question.axis);
+    std::cout << duration_text(times);
   };
   // The report whatever the answer; other formats hold a path.
   const auto text = [&](const std::string& extension) -> std::optional<std::string> {

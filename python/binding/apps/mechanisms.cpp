@@ -167,7 +167,7 @@ py::tuple check_linkage(const std::shared_ptr<plan::LinkageChecker>& checker, co
 }
 
 // (links, allowed, messages); a link is (name, body, kind, parent, shift, turn, axis, joint, lower, upper).
-py::tuple read_urdf(const std::string& file, const std::string& srdf, const std::string& crossings, double close) {
+py::tuple read_urdf(const std::string& file, const std::string& srdf, const std::string& crossings, py::handle close) {
   MeshOptions meshes = mesh_options(crossings, close);
   const plan::UrdfRobot robot = call(kSmallCall, [=](const Monitor& monitor) mutable {
     meshes.monitor = monitor;

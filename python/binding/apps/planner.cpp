@@ -400,7 +400,7 @@ void define_module(py::module_& m) {
       .def("complaint", &complaint_about)
       .def_property_readonly("start", [](const plan::Scene& s) { return optional_triple(s.start); })
       .def_property_readonly("goal", [](const plan::Scene& s) { return optional_triple(s.goal); });
-  m.def("read", [](const std::string& path, const std::string& crossings, double close) {
+  m.def("read", [](const std::string& path, const std::string& crossings, py::handle close) {
     MeshOptions meshes = mesh_options(crossings, close);
     return call(kSmallCall, [=](const Monitor& monitor) mutable {
       meshes.monitor = monitor;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "apps/program/expression/expression.h"
+#include "nef/export/mesh_losses.h"
 
 namespace nef::python {
 
@@ -101,6 +102,7 @@ void warn(const Messages& messages, int level) {
   if (messages.empty()) return;
   const py::object category = py::module_::import("nef.errors").attr("InputWarning");
   for (const std::string& message : messages) {
+    if (message.starts_with(kOpenPartsClosed)) continue;  // of every difference of two closed sets
     const std::string text = in_words_of_python(message);
     if (PyErr_WarnEx(category.ptr(), text.c_str(), level) != 0) throw py::error_already_set();
   }

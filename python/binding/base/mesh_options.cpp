@@ -7,6 +7,8 @@
 namespace nef::python {
 namespace {
 
+namespace py = pybind11;
+
 Crossings rule_of(const std::string& name) {
   if (const std::optional<Crossings> rule = crossings_of_name(name)) return *rule;
   std::string all;
@@ -14,14 +16,22 @@ Crossings rule_of(const std::string& name) {
   throw InputError("crossings takes one of " + all + "; not " + in_quotes(name));
 }
 
+double percent_of(py::handle close) {
+  constexpr double kUsual = 10;
+  if (py::isinstance<py::bool_>(close)) return close.cast<bool>() ? kUsual : 0;
+  try {
+    const auto percent = close.cast<double>();
+    if (percent >= 0 && percent <= 100) return percent;
+  } catch (const py::cast_error&) {  // as for a number out of range
+  }
+  throw InputError("close takes the largest share of lids in the area, in percent from 0 to 100; not " +
+                   std::string(py::str(close)));
+}
+
 }  // namespace
 
-MeshOptions mesh_options(const std::string& crossings, double close) {
-  if (!(close >= 0 && close <= 100)) {
-    throw InputError("close takes the largest share of lids in the area, in percent from 0 to 100; not " +
-                     std::to_string(close));
-  }
-  return {.crossings = rule_of(crossings), .close_percent = close};
+MeshOptions mesh_options(const std::string& crossings, py::handle close) {
+  return {.crossings = rule_of(crossings), .close_percent = percent_of(close)};
 }
 
 }  // namespace nef::python

@@ -36,18 +36,22 @@ def write_off(path, vertices, faces):
         file.writelines("3 %d %d %d\n" % tuple(f) for f in faces)
 
 
-def read_off(path):
-    words = pathlib.Path(path).read_text(encoding="ascii").split("\n", 1)[1]
-    numbers = iter(" ".join(line.split("#")[0] for line in words.splitlines()).split())
+def read_mesh(path):
+    """Of OFF or OBJ, which engines write."""
+    lines = [line.split("#")[0] for line in pathlib.Path(path).read_text(encoding="ascii").splitlines()]
+    if pathlib.Path(path).suffix == ".obj":
+        rows = [line.split() for line in lines]
+        vertices = [[float(x) for x in row[1:4]] for row in rows if row[:1] == ["v"]]
+        return vertices, [[int(word.split("/")[0]) - 1 for word in row[1:]] for row in rows if row[:1] == ["f"]]
+    numbers = iter(" ".join(lines).split()[1:])
     vertex_count, face_count, _ = (int(next(numbers)) for _ in range(3))
     vertices = [[float(next(numbers)) for _ in range(3)] for _ in range(vertex_count)]
-    faces = [[int(next(numbers)) for _ in range(int(next(numbers)))] for _ in range(face_count)]
-    return vertices, faces
+    return vertices, [[int(next(numbers)) for _ in range(int(next(numbers)))] for _ in range(face_count)]
 
 
 def volume(path):
     """Of the solid that a closed mesh bounds."""
-    vertices, faces = read_off(path)
+    vertices, faces = read_mesh(path)
     terms = []
     for face in faces:
         a = vertices[face[0]]

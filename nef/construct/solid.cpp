@@ -30,15 +30,17 @@ namespace {
 // then the part in R decides unless it is equal).
 Direction vector_between(const PointTable& points, PointId from, PointId to) {
   Integer3 v;
-  for (const std::size_t part : {std::size_t{4}, std::size_t{0}}) {
-    bool zero = true;
-    for (std::size_t i = 0; i < 3; ++i) {
-      mpz_mul(v[i].get_mpz_t(), points.coordinate(to, part + i), points.coordinate(from, 3));
-      mpz_submul(v[i].get_mpz_t(), points.coordinate(from, part + i), points.coordinate(to, 3));
-      zero = zero && v[i] == 0;
-    }
-    if (!zero) break;
+  const std::array<IntegerView, 4> a = points.coordinates(from);
+  const std::array<IntegerView, 4> b = points.coordinates(to);
+  const auto subtract = [&](std::size_t i, mpz_srcptr of_from, mpz_srcptr of_to) {
+    mpz_mul(v[i].get_mpz_t(), of_to, a[3]);
+    mpz_submul(v[i].get_mpz_t(), of_from, b[3]);
+  };
+  if (!points.finite(from) || !points.finite(to)) {
+    for (std::size_t i = 0; i < 3; ++i) subtract(i, points.coordinate(from, 4 + i), points.coordinate(to, 4 + i));
+    if (!is_zero(v)) return Direction::exact(v[0], v[1], v[2]);
   }
+  for (std::size_t i = 0; i < 3; ++i) subtract(i, a[i], b[i]);
   return Direction::exact(v[0], v[1], v[2]);
 }
 

@@ -43,15 +43,13 @@ int side_of_plane_exact(const PlaneTable& planes, PlaneId plane, const PointTabl
   Integer factor;
   mpz_ptr c = constant.get_mpz_t();
   mpz_ptr r = factor.get_mpz_t();
-  const IntegerView w = points.coordinate(point, 3);
-  mpz_mul(c, planes.coefficient(plane, 3), w);
-  mpz_mul(r, planes.coefficient(plane, 4), w);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const IntegerView n = planes.coefficient(plane, i);
-    if (n.sign() == 0) continue;
-    mpz_addmul(c, n, points.coordinate(point, i));
-    const IntegerView at_infinity = points.coordinate(point, 4 + i);
-    if (at_infinity.sign() != 0) mpz_addmul(r, n, at_infinity);
+  const std::array<IntegerView, 5> of_plane = planes.coefficients(plane);
+  const std::array<IntegerView, 4> of_point = points.coordinates(point);
+  mpz_mul(c, of_plane[3], of_point[3]);
+  mpz_mul(r, of_plane[4], of_point[3]);
+  for (std::size_t i = 0; i < 3; ++i) mpz_addmul(c, of_plane[i], of_point[i]);
+  if (!points.finite(point)) {
+    for (std::size_t i = 0; i < 3; ++i) mpz_addmul(r, of_plane[i], points.coordinate(point, 4 + i));
   }
   return sign_with_infimaximal(c, r);
 }
@@ -185,15 +183,17 @@ bool Direction::is_zero() const {
 const Integer3& Direction::integers() const& {
   if (known_) return integers_;
   NEF_ASSERT(planes_ != nullptr);
+  const std::array<IntegerView, 5> a = planes_->coefficients(p);
+  const std::array<IntegerView, 5> b = planes_->coefficients(q.valid() ? q : p);
   for (std::size_t i = 0; i < 3; ++i) {
     mpz_ptr out = integers_[i].get_mpz_t();
     if (!q.valid()) {
-      mpz_set(out, planes_->coefficient(p, i));
+      mpz_set(out, a[i]);
     } else {
       const std::size_t j = (i + 1) % 3;
       const std::size_t k = (i + 2) % 3;
-      mpz_mul(out, planes_->coefficient(p, j), planes_->coefficient(q, k));
-      mpz_submul(out, planes_->coefficient(p, k), planes_->coefficient(q, j));
+      mpz_mul(out, a[j], b[k]);
+      mpz_submul(out, a[k], b[j]);
     }
     if (negative_) mpz_neg(out, out);
   }

@@ -43,13 +43,14 @@ class LineTable {
   std::uint32_t number(const PlaneTable& planes, PlaneId p, PlaneId q) {
     if (std::array<Int128, 9> small{}; small_line(planes, p, q, small)) return number(rows_.push(small));
     std::array<Integer, 9> v;
-    const auto n = [&](PlaneId plane, std::size_t i) { return planes.coefficient(plane, i); };
+    const std::array<IntegerView, 5> a = planes.coefficients(p);
+    const std::array<IntegerView, 5> b = planes.coefficients(q);
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3;
       const std::size_t k = (i + 2) % 3;
-      subtract_products(v[i], n(p, j), n(q, k), n(p, k), n(q, j));
-      subtract_products(v[3 + i], n(q, 3), n(p, i), n(p, 3), n(q, i));
-      subtract_products(v[6 + i], n(q, 4), n(p, i), n(p, 4), n(q, i));
+      subtract_products(v[i], a[j], b[k], a[k], b[j]);
+      subtract_products(v[3 + i], b[3], a[i], a[3], b[i]);
+      subtract_products(v[6 + i], b[4], a[i], a[4], b[i]);
     }
     Integer divisor = 0;
     for (const Integer& value : v) mpz_gcd(divisor.get_mpz_t(), divisor.get_mpz_t(), value.get_mpz_t());

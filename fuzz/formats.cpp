@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/planner/linkage/linkage_path.h"
 #include "apps/planner/linkage_urdf/urdf_robot.h"
 #include "apps/planner/path/path_file.h"
 #include "apps/planner/proofs/inseparable_proof.h"
@@ -258,6 +259,19 @@ void read_path_lines(const std::string& text) {
   static_cast<void>(planner::read_path(file));
 }
 
+std::string joint_path(const Polyhedron& /*set*/, const std::string& /*text*/) {
+  return R"({"path": [[0, "1/3", 0.5], [1e1, -2, 3]], "status": "path"})";
+}
+
+std::string joint_lines(const Polyhedron& /*set*/, const std::string& /*text*/) { return "0 1/3 0.5\n\n1e1, -2 3\r\n"; }
+
+void read_joints(const std::string& text) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.file("joints.txt");
+  write_file(file, text);
+  static_cast<void>(planner::read_joint_path(file, {"slew", "luff", "reach"}));
+}
+
 std::string urdf_robot(const Polyhedron& /*set*/, const std::string& /*text*/) {
   return R"(<?xml version="1.0"?>
 <robot name="arm">
@@ -351,6 +365,8 @@ std::vector<Format> other_formats() {
       Format{"rigid-path", rigid_path, read_waypoints_file},
       Format{"path-lines", path_lines, read_path_lines},
       Format{"urdf", urdf_robot, read_urdf_robot},
+      Format{"joint-path", joint_path, read_joints},
+      Format{"joint-lines", joint_lines, read_joints},
       Format{"path-proof", proof_of_path, read_proof_file},
       Format{"collision-proof", proof_of_collision, read_proof_file},
       Format{"barrier-proof", proof_of_barrier, read_proof_file},

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Whether long sources open with what they do, whether the pages name files that exist (every path in backticks that begins
-with a folder of the repository, and every relative link), whether ctest can run every test by its name, and whether each
-source has a test near it (scripts/tests_of.py), and whether recipes of packages are of this version. Prints what does not hold; exits 1 if anything does not.
+with a folder of the repository, and every relative link), whether ctest can run every test by its name, whether each
+source has a test near it (scripts/tests_of.py), whether recipes of packages are of this version, and whether
+pages have both versions of a merge. Prints what does not hold; exits 1 if anything does not.
 
 Usage: scripts/check_sources.py
 """
@@ -41,6 +42,12 @@ def dead_paths(page: pathlib.Path) -> list[str]:
     dead = [name for name in PATH.findall(text) if name not in PLACEHOLDERS and not any(ROOT.glob(name.rstrip("/")))]
     dead += [link for link in LINK.findall(re.sub(r"`[^`]*`", "", text)) if not (page.parent / link).exists()]
     return [f"{page.relative_to(ROOT)} names {name}, which does not exist" for name in dead]
+
+
+def unresolved_merges(page: pathlib.Path) -> list[str]:
+    lines = page.read_text(encoding="utf-8").splitlines()
+    return [f"{page.relative_to(ROOT)}:{number}: a merge left both versions" for number, line in enumerate(lines, 1)
+            if line.startswith(("<<<<<<< ", ">>>>>>> "))]
 
 
 def opening(lines: list[str]) -> str:
@@ -86,7 +93,8 @@ def other_versions() -> list[str]:
 
 
 def main() -> int:
-    complaints = other_versions() + silent_sources() + untested_sources() + unrunnable_tests() + [line for page in pages() for line in dead_paths(page)]
+    complaints = other_versions() + silent_sources() + untested_sources() + unrunnable_tests() + [
+        line for page in pages() for line in dead_paths(page) + unresolved_merges(page)]
     print("\n".join(complaints), end="\n" if complaints else "")
     return 1 if complaints else 0
 

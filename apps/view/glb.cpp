@@ -178,8 +178,12 @@ class GlbWriter {
     }
   }
 
+  // All layers are in one animation, since most programs play one at a time.
   void add_motion(const Layer& layer, std::size_t node) {
     if (layer.motion.empty()) return;
+    if (document_.animations.empty()) {
+      document_.animations.push_back({{"name", "motion"}, {"samplers", Json::array()}, {"channels", Json::array()}});
+    }
     std::vector<float> times;
     std::vector<float> offsets;
     for (const double time : layer.motion.times) times.push_back(static_cast<float>(time));
@@ -192,15 +196,14 @@ class GlbWriter {
       for (const double q : {x, y, z, w}) turns.push_back(static_cast<float>(q));  // glTF's order
     }
     const std::size_t input = document_.add_floats(times, 1, GlbTarget::kNone);
-    Json samplers = Json::array();
-    Json channels = Json::array();
+    Json& samplers = document_.animations[0]["samplers"];
+    Json& channels = document_.animations[0]["channels"];
     const auto add = [&](const char* path, std::size_t output) {
       channels.push_back({{"sampler", samplers.size()}, {"target", {{"node", node}, {"path", path}}}});
       samplers.push_back({{"input", input}, {"output", output}, {"interpolation", "LINEAR"}});
     };
     add("translation", document_.add_floats(offsets, 3, GlbTarget::kNone));
     if (!turns.empty()) add("rotation", document_.add_floats(turns, 4, GlbTarget::kNone));
-    document_.animations.push_back({{"name", layer.name + " moves"}, {"samplers", samplers}, {"channels", channels}});
   }
 
   const std::vector<Layer>& layers_;

@@ -7,10 +7,10 @@
 // not cover, and then the second one follows. If the hull has no volume, the last part finds out which views have no
 // point in common.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <memory>
-#include <mutex>
 
 #include "apps/visual_hull/cones/at_least.h"
 #include "apps/visual_hull/cones/bounds.h"
@@ -43,23 +43,30 @@ using Views = std::vector<ViewResult>;
 /// What every step needs to know about the run.
 struct Run {
   const Options& options;
-  const Progress& progress;
+  /// Tells the monitor of the run. All steps have a monitor that does not tell by itself, since what is told is about
+  /// views, not about the operations on their sets.
+  nef::ProgressFunction show;
 
+  Run(const Options& its_options, const nef::Monitor& monitor)
+      : options(its_options), show([monitor](const char* phase, std::size_t done, std::size_t total) {
+          monitor.tell_progress(phase, done, total);
+        }) {}
+
+  static std::string step(Phase phase, const std::string& view) {
+    return view.empty() ? phase_name(phase) : phase_name(phase) + (" " + view);
+  }
+  /// By the thread of the run.
   void tell(Phase phase, const std::string& view, std::size_t done, std::size_t total) const {
-    if (progress) progress(phase, view, done, total);
+    show(step(phase, view).c_str(), done, total);
   }
 
   /// body(i, own) for every view, on as many threads as the user allows.
   void each_view(Phase phase, const Views& views, const nef::Monitor& monitor,
                  const std::function<void(std::size_t, const nef::Monitor& own)>& body) const {
-    std::size_t begun = 0;
-    std::mutex telling;
-    nef::parallel_for(views.size(), monitor, [&](std::size_t i, const nef::Monitor& own) {
-      {
-        const std::lock_guard<std::mutex> lock(telling);
-        tell(phase, views[i].name, begun++, views.size());
-      }
-      body(i, own);
+    std::atomic<std::size_t> begun = 0;
+    nef::parallel_for(views.size(), monitor.telling(show), [&](std::size_t i, const nef::Monitor& own) {
+      own.tell_progress(step(phase, views[i].name).c_str(), begun++, views.size());
+      body(i, own.quiet());
     });
   }
 };
@@ -382,9 +389,7 @@ nef::Polyhedron hull_of_parts(const Run& run, const Views& views, const Room& ro
   bool needed = !room.found;
   for (const ViewResult& view : views) needed = needed || view.silhouette.background;
   if (needed) all.push_back({box, {}});
-  return intersect_parts(std::move(all), monitor, [&run](std::size_t done, std::size_t total) {
-    run.tell(Phase::kIntersection, "", done, total);
-  });
+  return intersect_parts(std::move(all), monitor.telling(run.show));
 }
 
 std::string list_of(const std::vector<std::string>& names) {
@@ -586,9 +591,8 @@ void hull_of_masks(const Run& run, const Scene& scene, std::vector<cv::Mat> mask
 
 }  // namespace
 
-Result compute(const Scene& scene, const std::filesystem::path& folder, const Options& options,
-               const Progress& progress) {
-  return HullStream(scene, options).frame(folder, std::nullopt, progress, options.monitor);
+Result compute(const Scene& scene, const std::filesystem::path& folder, const Options& options) {
+  return HullStream(scene, options).frame(folder, std::nullopt, options.monitor);
 }
 
 struct HullStream::State {
@@ -611,10 +615,10 @@ HullStream::HullStream(Scene scene, const Options& options) {
   state_ = std::move(state);
 }
 
-Result HullStream::frame(const std::vector<cv::Mat>& masks, const Progress& progress,
-                         const nef::Monitor& monitor) const {
+Result HullStream::frame(const std::vector<cv::Mat>& masks, const nef::Monitor& monitor) const {
   const State& s = *state_;
-  const Run run{s.options, progress};
+  const Run run(s.options, monitor);
+  const nef::Monitor quiet = monitor.quiet();
   if (masks.size() != s.views.size()) {
     throw nef::InputError("a frame needs one mask per view: " + std::to_string(s.views.size()) + ", not " +
                           std::to_string(masks.size()));
@@ -623,7 +627,7 @@ Result HullStream::frame(const std::vector<cv::Mat>& masks, const Progress& prog
   result.origin = s.silhouettes.origin;
   result.views = s.views;
   std::vector<cv::Mat> loaded(masks.size());
-  timed(result.phases, Phase::kLoad, monitor, [&](const nef::Monitor& watching) {
+  timed(result.phases, Phase::kLoad, quiet, [&](const nef::Monitor& watching) {
     run.each_view(Phase::kLoad, result.views, watching, [&](std::size_t i, const nef::Monitor&) {
       const View& view = s.scene.views[i];
       if (view.polygons) return;
@@ -634,21 +638,22 @@ Result HullStream::frame(const std::vector<cv::Mat>& masks, const Progress& prog
       check_size_of(loaded[i], view, "the mask");
     });
   });
-  hull_of_masks(run, s.scene, std::move(loaded), s.silhouettes, s.place, result, monitor);
+  hull_of_masks(run, s.scene, std::move(loaded), s.silhouettes, s.place, result, quiet);
   return result;
 }
 
 Result HullStream::frame(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& images,
-                         const Progress& progress, const nef::Monitor& monitor) const {
+                         const nef::Monitor& monitor) const {
   const State& s = *state_;
   Options options = s.options;
   if (images) options.images = images;
-  const Run run{options, progress};
+  const Run run(options, monitor);
+  const nef::Monitor quiet = monitor.quiet();
   Result result;
   result.origin = s.silhouettes.origin;
   result.views = s.views;
-  hull_of_masks(run, s.scene, masks_of(run, s.scene, folder, s.silhouettes, result, monitor), s.silhouettes, s.place,
-                result, monitor);
+  hull_of_masks(run, s.scene, masks_of(run, s.scene, folder, s.silhouettes, result, quiet), s.silhouettes, s.place,
+                result, quiet);
   return result;
 }
 

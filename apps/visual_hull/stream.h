@@ -28,13 +28,12 @@ class HullStream {
   /// The hull of one frame. masks[i] is the i-th view's: one channel of 8 bits, object where it is not zero; it is
   /// only read, and may be anything where the view has polygons. Lens distortion of the scene is undone. Throws
   /// InputError as `compute` does, and for masks of another number, kind or size.
-  [[nodiscard]] Result frame(const std::vector<cv::Mat>& masks, const Progress& progress = {},
-                             const nef::Monitor& monitor = {}) const;
+  [[nodiscard]] Result frame(const std::vector<cv::Mat>& masks, const nef::Monitor& monitor = {}) const;
 
   /// The same for image files: `folder` is where the scene's images are looked up, `images`, if given, a folder whose
   /// i-th image is the i-th view's.
   [[nodiscard]] Result frame(const std::filesystem::path& folder, const std::optional<std::filesystem::path>& images,
-                             const Progress& progress = {}, const nef::Monitor& monitor = {}) const;
+                             const nef::Monitor& monitor = {}) const;
 
  private:
   struct State;

@@ -45,10 +45,6 @@ struct PhaseReport {
 };
 using PhaseReports = std::array<PhaseReport, kPhaseCount>;
 
-/// Told at every step: the phase, the view or step at work, how many are done and how many there are. Called by one
-/// thread at a time, not always the same.
-using Progress = std::function<void(Phase, const std::string&, std::size_t, std::size_t)>;
-
 /// How the hull is found; the answer is the same set.
 enum class Way : std::uint8_t {
   kBest,    ///< vertex by vertex where that is possible and worth it
@@ -70,7 +66,9 @@ struct Options {
   std::optional<std::size_t> at_least;  ///< the points in at least so many silhouettes, instead of in all
   bool largest = false;                 ///< keep the piece of the largest volume only: Result::pieces
   bool verify = false;
-  nef::Monitor monitor = {};  ///< cancellation, progress, counters; its referents must outlive compute
+  /// Cancellation, progress, counters; its referents must outlive compute. It is told the steps: the name of the phase
+  /// and of the view at work, "contours left.png", how many are done, and how many there are.
+  nef::Monitor monitor = {};
 };
 
 /// What one view has come to.
@@ -122,8 +120,7 @@ struct Result {
 /// Computes the hull. `folder` is where the scene's images are looked up. Throws InputError naming
 /// the view whose image is missing or unreadable, or whose silhouette is empty, and if there
 /// is no box and the cones do not bound the scene, or if the direct way is asked for and cannot be gone.
-Result compute(const Scene& scene, const std::filesystem::path& folder, const Options& options,
-               const Progress& progress = {});
+Result compute(const Scene& scene, const std::filesystem::path& folder, const Options& options);
 
 /// Runs `work` and adds its time, and the predicates that it counts with what it is given, to a phase.
 void timed(PhaseReports& reports, Phase phase, const nef::Monitor& monitor,

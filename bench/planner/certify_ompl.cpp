@@ -137,7 +137,15 @@ bool set_up_checks(og::SimpleSetup& setup, const Checker& checker, const std::st
   return false;
 }
 
-// Within the scene's box, in spite of rounding; without one, around the obstacles, start and goal.
+// The box of a scene as OMPL has it, in doubles: start and goal may lie on it.
+void round_box(Scene& scene) {
+  if (!scene.box) return;
+  for (Rational3& corner : *scene.box) {
+    for (Rational& x : corner) x = exact_rational(nearest_double(x));
+  }
+}
+
+// The scene's box; without one, around the obstacles, start and goal.
 ob::RealVectorBounds bounds_of(const Scene& scene, const MotionChecker& checker) {
   Vector3d low = Vector3d::Constant(HUGE_VAL);
   Vector3d high = -low;
@@ -150,8 +158,8 @@ ob::RealVectorBounds bounds_of(const Scene& scene, const MotionChecker& checker)
   ob::RealVectorBounds bounds(3);
   for (unsigned i = 0; i < 3; ++i) {
     if (scene.box) {
-      bounds.setLow(i, std::nextafter(nearest_double((*scene.box)[0][i]), HUGE_VAL));
-      bounds.setHigh(i, std::nextafter(nearest_double((*scene.box)[1][i]), -HUGE_VAL));
+      bounds.setLow(i, nearest_double((*scene.box)[0][i]));
+      bounds.setHigh(i, nearest_double((*scene.box)[1][i]));
       continue;
     }
     const std::array ends{nearest_double((*scene.start)[i]), nearest_double((*scene.goal)[i])};
@@ -249,7 +257,8 @@ int run(int argc, char** argv) {
   if (argc > 3) request.runs = static_cast<unsigned>(std::atoi(argv[3]));
   if (argc > 4) request.seconds = std::atof(argv[4]);
   ompl::RNG::setSeed(argc > 5 ? static_cast<unsigned>(std::atoi(argv[5])) : 1);
-  const Scene scene = with_robot_as_in_its_file(read_scene(argv[1]));
+  Scene scene = with_robot_as_in_its_file(read_scene(argv[1]));
+  round_box(scene);
   if (!scene.quaternions || !scene.start || !scene.goal) throw InputError("not a .cfg file of OMPL.app");
   const auto checker = std::make_shared<const MotionChecker>(MotionChecker::of_scene(scene));
   std::istringstream checks(argc > 6 ? argv[6] : "exact:0.01,fcl:0.01,fcl:0.001,continuous,certified");

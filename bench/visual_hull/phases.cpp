@@ -72,7 +72,7 @@ void measure(const std::string& file, const Settings& settings) {
   std::vector<double> frames;
   for (int k = 0; k < settings.repeat; ++k) {
     frames.push_back(
-        seconds_of([&] { static_cast<void>(nef::to_rounded_mesh(stream.frame(masks, {}, options.monitor).hull)); }));
+        seconds_of([&] { static_cast<void>(nef::to_rounded_mesh(stream.frame(masks, options.monitor).hull)); }));
   }
   const auto phase = [&](Phase p) { return median(phases[static_cast<std::size_t>(p)]); };
   const std::filesystem::path path(file);

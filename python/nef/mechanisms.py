@@ -3,7 +3,7 @@
 import os
 import warnings
 from fractions import Fraction
-from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 from . import _planner
 from ._nef import Polyhedron
@@ -209,6 +209,20 @@ class CheckedMotion(NamedTuple):
         return self.status == "path"
 
 
+class CertifiedLinkagePath(NamedTuple):
+    """What is proved about a path of a linkage. True if every motion is free."""
+
+    #: 'path', 'blocked' or 'undecided'
+    status: str
+    #: the verdicts on its motions, a list of CheckedMotion; empty if the time was over
+    motions: List[CheckedMotion]
+    #: the number of the first motion that collides, or None
+    blocked: Optional[int]
+
+    def __bool__(self):
+        return self.status == "path"
+
+
 def reads_urdf() -> bool:
     """Whether Linkage.read() works: the package was built with urdfdom (Debian: liburdfdom-dev)."""
     return _planner.reads_urdf()
@@ -221,6 +235,8 @@ class Joint(NamedTuple):
     #: limits of its value; -pi and pi for a continuous joint
     lower: float
     upper: float
+    #: whether it turns without end, so that the limits do not bound it
+    continuous: bool = False
 
 
 class Linkage:
@@ -304,13 +320,43 @@ class Linkage:
         - start, end: a value for each joint that has one, in the order of the links (radians, or lengths); the robot stays
           if `end` is None
         """
+        return self._told(self._checker_of(obstacles).check(list(start), list(start if end is None else end)))
+
+    def certify(self, path: Any, obstacles: Sequence[Polyhedron] = (),
+                seconds: Optional[float] = None,
+                progress: Optional[Callable[[str, int, int], object]] = None) -> CertifiedLinkagePath:
+        """Whether the robot collides, with obstacles or itself, on a path: proves every motion free, or finds where it collides.
+
+        - path: a list of values as check() takes them, or a file as `planner --linkage ROBOT --path` takes it. Values must be
+          within the limits of a file's joints, unless these are continuous
+        - seconds: time limit, after which the path is undecided
+        - progress: a function of (phase, done, total): motions
+        """
+        if isinstance(path, (str, os.PathLike)):
+            names = [link[0] for link in self._links if link[2] != "fixed"]
+            if self._limits is not None:
+                names = [joint.name for joint in self._limits]
+            path = _planner.read_joint_path(os.fspath(path), names)
+        path = [list(values) for values in path]
+        for i, values in enumerate(path):
+            for joint, value in zip(self._limits or [], values):
+                if not joint.continuous and not joint.lower <= value <= joint.upper:
+                    raise InputError(f"way-point {i}: the value {value:g} of joint {joint.name!r} is not within its limits, "
+                                     f"{joint.lower:g} to {joint.upper:g}")
+        status, motions, blocked = self._checker_of(obstacles).certify(path, seconds, progress)
+        return CertifiedLinkagePath(status, [self._told(motion) for motion in motions], blocked)
+
+    def _checker_of(self, obstacles):
         if isinstance(obstacles, Polyhedron):
             raise TypeError("obstacles must be a list of Polyhedron: write [obstacle] for one")
         obstacles = list(obstacles)
         known = self._checker
         if known is None or len(known[1]) != len(obstacles) or any(a is not b for a, b in zip(known[1], obstacles)):
             self._checker = known = _planner.LinkageChecker(self._links, self._allowed, obstacles), obstacles
-        status, parameter, link, other, undecided = known[0].check(list(start), list(start if end is None else end))
+        return known[0]
+
+    def _told(self, verdict):
+        status, parameter, link, other, undecided = verdict
         names = [entry[0] for entry in self._links]
         links = (names[link], None if other is None else names[other]) if status == "blocked" else None
         return CheckedMotion(status, parameter, links, [tuple(part) for part in undecided])

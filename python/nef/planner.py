@@ -24,12 +24,12 @@ from ._nef import Polyhedron
 from .assemblies import (Disassembly, DisassemblyStep, FreeDirections, Inseparable, Undecided, disassemble, free_directions,
                          prove_inseparable, complaint_about_inseparable)
 from .errors import Error, InputError, InputWarning
-from .mechanisms import (CheckedMotion, Hinge, Joint, Linkage, Overlap, PairVerdict, PartVerdict, RangeEnd, RangePart, Screw, Slider,
+from .mechanisms import (CertifiedLinkagePath, CheckedMotion, Hinge, Joint, Linkage, Overlap, PairVerdict, PartVerdict, RangeEnd, RangePart, Screw, Slider,
                          Stop, Verdict, range_of_motion, reads_urdf, verdict)
 
 Exact3 = Tuple[Fraction, Fraction, Fraction]
 
-__all__ = ["Cell", "CertifiedPath", "CheckedMotion", "CollidingPose", "Component", "Disassembly", "DisassemblyStep",
+__all__ = ["Cell", "CertifiedLinkagePath", "CertifiedPath", "CheckedMotion", "CollidingPose", "Component", "Disassembly", "DisassemblyStep",
            "FreeDirections", "Hinge", "Inseparable", "Joint", "Linkage", "Overlap", "PairVerdict",
            "PartVerdict", "Plan", "Proof", "RangeEnd", "RangePart", "Rotation", "Scene", "Screw", "Slider", "Stop", "Thinness",
            "TightPassage", "TurningProof", "Undecided", "Verdict", "Widest", "complaint_about_inseparable", "disassemble",
@@ -404,12 +404,15 @@ class Scene:
         """Whether a path stays in free space, exactly: a Plan, 'path' or 'blocked'. Of a robot that only translates."""
         return Plan(self.build()._space.check(waypoints))
 
-    def certify(self, path: Any) -> CertifiedPath:
+    def certify(self, path: Any, seconds: Optional[float] = None,
+                progress: Optional[Callable[[str, int, int], object]] = None) -> CertifiedPath:
         """Whether a path of the robot as a rigid body collides: proves every motion free, or finds a colliding pose.
 
         - path: a list of (position, quaternion), quaternions as w, x, y, z of any length; a Plan; or a file of poses as
           planner --path takes it. Between two poses the position goes straight, and the rotation evenly along the
           shorter arc
+        - seconds: time limit, after which the path is undecided
+        - progress: a function of (phase, done, total), as in build()
 
         The robot is as in its own file; the rotation of the scene, if it has one, does not bound the path.
 
@@ -421,7 +424,7 @@ class Scene:
             >>> scene.certify(turn).collision.motion
             0
         """
-        return CertifiedPath(*self._scene.certify(_poses_of(path)))
+        return CertifiedPath(*self._scene.certify(_poses_of(path), seconds, progress))
 
     def prove(self, path: Any = None, *, start: Any = None, goal: Any = None) -> str:
         """A proof that others can check, as the text of a .proof file (`planner --proof`): of a path, that none of its poses
@@ -452,6 +455,20 @@ class Scene:
         if scene.start is None or scene.goal is None:
             raise InputError("a proof needs a path, or a start and a goal")
         return self.build()._space.prove(scene.start, scene.goal)
+
+    def prove_tight(self) -> str:
+        """The proof that the tight passages are tight, as the text of a .proof file (`planner --tight --proof`). Raises InputError
+        if there is no passage, or no such proof.
+
+            >>> import json, nef
+            >>> from nef import planner
+            >>> wall = nef.box((4, 0, 0), (5, 9, 9)) - nef.box((3, 3, 3), (6, 4, 4)).interior()
+            >>> scene = planner.Scene(nef.box((0, 0, 0), (1, 1, 1)), [wall], box=((0, 0, 0), (8, 8, 8)))
+            >>> text = scene.prove_tight()
+            >>> json.loads(text)["claim"]["status"], scene.complaint(text)
+            ('tight', None)
+        """
+        return self.build()._space.prove_tight()
 
     def complaint(self, text: str) -> Optional[str]:
         """What is wrong with the text of a .proof file, by itself or as one about this scene; None if it is valid. The check

@@ -15,7 +15,7 @@ from . import _visual_hull
 from ._nef import Polyhedron
 from .errors import InputError, InputWarning
 
-Progress = Optional[Callable[[str, str, int, int], object]]
+Progress = Optional[Callable[[str, int, int], object]]
 
 #: the board that is used if none is named
 USUAL_BOARD = "charuco:7x5,30mm,22mm,DICT_5X5"
@@ -153,7 +153,7 @@ def compute(masks: Sequence[Any], cameras: Sequence[Any], names: Optional[Sequen
     - largest: keep the piece of the largest volume only
     - verify: project the hull back, for `inside` and `score` of the views
     - threads: 0 for as many as the machine has; the result does not depend on it
-    - progress: a function of (phase, view, done, total)
+    - progress: a function of (phase, done, total): the phase and the view at work, "contours left.png"
 
     Raises InputError, whose `view` is the name of the view at fault, for an empty mask or a matrix that is not a camera.
     """

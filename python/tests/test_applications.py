@@ -19,12 +19,12 @@ def test_sums(needs):
     minkowski = needs("minkowski")
     told = []
     l_shape = CUBE | nef.box((1, 0, 0), (2, 1, 3))
-    total = minkowski.sum(l_shape, CUBE, progress=lambda done, pairs: told.append((done, pairs)))
+    total = minkowski.sum(l_shape, CUBE, progress=lambda phase, done, total: told.append((done, total)))
     assert total == nef.box((0, 0, 0), (2, 2, 2)) | nef.box((1, 0, 0), (3, 2, 4))
     assert told and told[-1][0] == told[-1][1]
     assert minkowski.sum(CUBE.interior(), nef.point((1, 2, 3))) == CUBE.interior().translate((1, 2, 3))
     with pytest.raises(ZeroDivisionError):
-        minkowski.sum(l_shape, CUBE, progress=lambda done, pairs: 1 // 0)
+        minkowski.sum(l_shape, CUBE, progress=lambda *what: 1 // 0)
     assert minkowski.negate(CUBE) == nef.box((-1, -1, -1), (0, 0, 0))
     assert minkowski.is_convex(CUBE) and not minkowski.is_convex(l_shape)
     cells = minkowski.decompose(l_shape)
@@ -50,7 +50,7 @@ def test_erosion(needs):
     # Of an unbounded set: where no point of a cube is in the other one.
     assert minkowski.erode(~CUBE, CUBE) == ~nef.box((-1, -1, -1), (1, 1, 1))
     told = []
-    minkowski.erode(frame, CUBE, progress=lambda done, pairs: told.append((done, pairs)))
+    minkowski.erode(frame, CUBE, progress=lambda phase, done, total: told.append((done, total)))
     assert told
 
 
@@ -247,7 +247,7 @@ def test_visual_hull(needs):
     told = []
     hull = visual_hull.compute([mask] * 3, cameras, box=((-2, -2, -2), (2, 2, 2)),
                                progress=lambda *step: told.append(step))
-    assert told
+    assert told[:3] == [(f"load view {i}", i, 3) for i in range(3)] and told[-1] == ("verify view 2", 2, 3)
     low, high = hull.solid.bounding_box()
     assert all(abs(float(x) + 1) < 0.01 for x in low) and all(abs(float(x) - 1) < 0.01 for x in high)
     assert all(view.inside and view.score > 0.9 and not view.cut_by_frame for view in hull.views)

@@ -100,12 +100,47 @@ def test_robots_from_urdf_files(needs):
     crane = planner.Linkage.read(folder / "crane.urdf", folder / "crane.srdf")
     assert crane.links == ["ground", "mast", "boom", "jib", "hook"]
     assert [joint.name for joint in crane.joints] == ["slew", "luff", "reach"]
-    assert crane.joints[0].upper == pytest.approx(math.pi) and crane.joints[2] == ("reach", 0, 1.5)
+    assert crane.joints[0].upper == pytest.approx(math.pi) and crane.joints[2] == ("reach", 0, 1.5, False)
     box = nef.box((3, -1, 1), (4, 1, 3))
     assert crane.check([0, 0, 0], [0, 0, 0.5], [box])
     assert crane.check([math.pi / 2, 0, 1], [-math.pi / 2, 0, 1], [box]).status == "blocked"
+    assert crane.joints[0].continuous
     with pytest.raises(nef.InputError):
         planner.Linkage.read(folder / "crane.srdf")
+
+
+def test_paths_of_linkages_are_those_of_the_program(needs, tmp_path):
+    planner = needs("planner")
+    if not planner.reads_urdf():
+        return
+    folder = pathlib.Path(__file__).resolve().parents[2] / "data/planner/linkage"
+    crane = planner.Linkage.read(folder / "crane.urdf", folder / "crane.srdf")
+    box = nef.box((3, -1, 1), (4, 1, 3))
+    half = math.pi / 2
+    round_it = [[half, 0, 1], [half, 0, 0], [-half, 0, 0], [-half, 0, 1]]
+    for path in (round_it, round_it[:1] + round_it[-1:]):
+        file = tmp_path / "joints.txt"
+        file.write_text("".join(" ".join(map(repr, map(float, values))) + "\n" for values in path))
+        found = crane.certify(path, [box])
+        assert found == crane.certify(file, [box])
+        told = program("--linkage", folder / "crane.urdf", "--srdf", folder / "crane.srdf", "--obstacle", "box(3,-1,1, 4,1,3)",
+                       "--path", file)
+        assert found.status == told["status"] and found.blocked == told.get("blocked_segment")
+        assert [motion.status for motion in found.motions] == [verdict["status"] for verdict in told["verdicts"]]
+        assert told["path"] == path and told["joints"] == [joint.name for joint in crane.joints]
+        for motion, verdict in zip(found.motions, told["verdicts"]):
+            if motion.status == "blocked":
+                assert motion.parameter == verdict["collision"]["parameter"]
+                assert list(motion.links) == verdict["collision"]["links"]
+    assert crane.certify(round_it, [box])
+    assert crane.certify(round_it, [box], seconds=1e-9).status in ("path", "undecided")
+    with pytest.raises(nef.InputError, match="reach"):
+        crane.certify([[0, 0, 2]])
+    with pytest.raises(nef.InputError):
+        crane.certify([])
+    phases = []
+    crane.certify(round_it, [box], progress=lambda *told: phases.append(told))
+    assert ("certifying motions", 2, 3) in phases
 
 
 def test_linkages(needs):

@@ -102,6 +102,9 @@ PROGRAMS = {
     },
     "planner": {
         **RUN, **MESHES, **FILES,
+        "--linkage": "nef.planner.Linkage.certify(path)",
+        "--srdf": "nef.planner.Linkage.read(srdf)",
+        "--obstacle": "nef.planner.Linkage.certify(obstacles)",
         "--exact": "nef.planner.verdict(exact)",
         "--assembly": "nef.planner.disassemble(parts)",
         "--free-directions": "nef.planner.free_directions(part)",

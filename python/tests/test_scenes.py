@@ -232,7 +232,10 @@ def test_certified_paths_are_those_of_the_program(needs, tmp_path):
     assert found and found.status == "path" and found.touching == [1] and found.undecided == []
     tilted = tmp_path / "tilted.path"
     tilted.write_text("0 0 0 1 0 0 9\n0 9 0 1 0 0 9\n")
-    found = scene.certify(tilted)
+    assert scene.certify(fits, seconds=1e-9).status in ("path", "undecided")
+    phases = []
+    found = scene.certify(tilted, progress=lambda *told: phases.append(told))
+    assert phases == [("certifying motions", 0, 1)]
     assert not found and found.collision.motion == 0
     # The pose collides by the definition, with sets.
     w, x, y, z = found.collision.quaternion
@@ -279,6 +282,11 @@ def test_proofs(needs, tmp_path):
     for wrong in ("", "{}", '{"claim": 1}'):
         with pytest.raises(nef.InputError):
             holed.complaint(wrong)
+    tight = holed.prove_tight()
+    assert json.loads(tight)["claim"]["status"] == "tight"
+    assert holed.complaint(tight) is None and replayed(tight, tmp_path) == 0
+    with pytest.raises(nef.InputError):
+        closed.prove_tight()
     with pytest.raises(nef.InputError, match="start and a goal"):
         holed.prove()
     with pytest.raises(nef.InputError, match="not both"):

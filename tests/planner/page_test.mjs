@@ -77,6 +77,28 @@ async function checkTurn(browser, page, path) {
   assert.deepEqual(browser.errors, []);
 }
 
+// A crane turns evenly by 1.5 radians: its hook, 2.25 from the axis, is on the circle at each time, and the ground stays.
+async function checkLinkage(browser, page) {
+  await browser.open(page);
+  // How far the hook's origin has gone.
+  const way = async (share) => {
+    await browser.evaluate(`(() => { const s = document.querySelector("#time-slider");
+      s.value = ${share}; s.dispatchEvent(new Event("input")); })()`);
+    return browser.evaluate(`(() => { const { group, layer } = ${view("hook")}; group.updateMatrixWorld(true);
+      const from = group.position.clone().set(...layer.motion.pivot);
+      return from.clone().applyMatrix4(group.matrix).sub(from).toArray(); })()`);
+  };
+  for (const share of [0, 0.3, 0.5, 1]) {
+    const found = await way(share);
+    const wanted = [2.25 * Math.cos(1.5 * share) - 2.25, 2.25 * Math.sin(1.5 * share), 0];
+    wanted.forEach((x, i) => assert.ok(Math.abs(x - found[i]) < 0.01, `${found} instead of ${wanted}`));
+  }
+  assert.deepEqual(await browser.evaluate(`${view("ground")}.group.position.toArray()`), [0, 0, 0]);
+  await browser.frame();
+  writeFileSync(join(folder, "crane.png"), await browser.screenshot());
+  assert.deepEqual(browser.errors, []);
+}
+
 const chromium = findChromium();
 if (!chromium) skip("Chromium is not installed (apt-get install chromium)");
 mkdirSync(folder, { recursive: true });
@@ -90,10 +112,21 @@ const turned = spawnSync(planner, [join(scenes, "corner.json"), "--quiet", "--pa
   encoding: "utf8",
 });
 assert.equal(turned.status, 0, turned.stderr);
+const crane = join(folder, "crane.html");
+writeFileSync(join(folder, "swing.txt"), "0 0 0\n1.5 0 0\n");
+const robot = join(scenes, "linkage", "crane");
+const swung = spawnSync(
+  planner,
+  ["--linkage", `${robot}.urdf`, "--srdf", `${robot}.srdf`, "--path", join(folder, "swing.txt"), "--page", crane],
+  { encoding: "utf8" },
+);
+const readsUrdf = !swung.stderr.includes("does not read URDF files");
+if (readsUrdf) assert.equal(swung.status, 0, swung.stderr);
 const browser = new Browser(chromium);
 try {
   await check(browser, page);
   await checkTurn(browser, turning, JSON.parse(readFileSync(report, "utf8")).path);
+  if (readsUrdf) await checkLinkage(browser, crane);
   console.log("the robot moves along its path");
 } finally {
   await browser.close();

@@ -35,6 +35,7 @@ Exit codes: 0 a path; 1 proof that there is none (with --path: the given path le
 With --assembly: 0 a sequence, 1 inseparable, 3 parts overlap, 5 undecided within the --time.
 With --range: 0, 5 undecided.
 With --verdict: 0, 3 parts overlap, 5 a range is undecided.
+With --linkage: 0 every motion of the path is free, 1 one collides, 5 undecided.
 --manifold, --recenter and --lenient are for the meshes that --free-directions writes; .glb scenes and animations are always
 placed about their middle.
 --tight without -o lists passages and exits with 0 whatever the answer is. --queries exits with the largest code of
@@ -51,6 +52,7 @@ Examples:
   planner --assembly parts.json --page apart.html
   planner --range mechanism.json --json
   planner --verdict parts.json --json
+  planner --linkage robot.urdf --srdf robot.srdf --obstacle table.off --path joints.txt --page motion.html
   planner scene.json --widest --precision 1/100
   planner scene.json --keep-clear 0.1 --speed 2 --acceleration 5 -o path.csv
   planner scene.json --ompl RRTConnect --time 5
@@ -96,6 +98,11 @@ std::vector<Exclusion> exclusions() {
       {"--verdict",
        {kScene.data(), "--assembly", "--range", "--path", "--queries", "--page", "--tight", "--widest", "--widest-box",
         "--proof", "--check-proof", "--time"}},
+      {"--linkage",
+       {kScene.data(), "--assembly",    "--range",  "--verdict",       "--queries",    "--start",  "--goal",
+        "--contact",   "--tight",       "--widest", "--widest-box",    "--keep-clear", "--speed",  "--prefer",
+        "--clearance", "--raw",         "--quick",  "--min-dimension", "--se3",        "--digits", "--max-cells",
+        "--proof",     "--check-proof", "--ompl",   "--benchmark"}},
       {"--assembly",
        {kScene.data(), "--start", "--goal", "--contact", "--tight", "--path", "--queries", "--ompl", "--benchmark",
         "--widest", "--widest-box", "--keep-clear", "--speed", "--prefer", "--clearance", "--raw", "--quick",
@@ -123,6 +130,7 @@ std::string dotted(const std::vector<const char*>& extensions) {
 void check_outputs(const Arguments& a) {
   if (!a.range.empty()) require_extensions(a, "with --range", {"json"});
   if (!a.verdict.empty()) require_extensions(a, "with --verdict", {"json"});
+  if (!a.linkage.empty()) require_extensions(a, "with --linkage", {"json", "html", "glb"});
   if (!a.queries.empty()) require_extensions(a, "with --queries", {"json"});
   if (!a.assembly.empty()) require_extensions(a, "with --assembly", {"json", "html", "glb"});
   for (const std::string& file : a.outputs) {
@@ -157,7 +165,13 @@ void check_usage(const Arguments& a) {
     if (a.app->count(option) > 0) exclude(a, option, others);
   }
   if (a.exact && a.verdict.empty()) throw InputError("--exact is for --verdict");
-  if (a.range.empty() && a.assembly.empty() && a.verdict.empty() && a.scene.empty()) {
+  if (a.linkage.empty() && (!a.srdf.empty() || !a.obstacles.empty())) {
+    throw InputError("--srdf and --obstacle are for --linkage");
+  }
+  if (!a.linkage.empty() && a.given_path.empty()) {
+    throw InputError("--linkage needs --path FILE, a line of joint values for each way-point");
+  }
+  if (a.range.empty() && a.assembly.empty() && a.verdict.empty() && a.linkage.empty() && a.scene.empty()) {
     throw InputError("scene is required: planner SCENE, or planner --assembly PARTS.json");
   }
   if (!a.page.empty() && lower_extension(a.page) != "html") {
@@ -189,6 +203,17 @@ void declare(CLI::App& app, Arguments& a) {
          "Check the parts of an assembly or a mechanism (.json) where they are: overlaps, gaps, contacts, which "
          "parts can be removed, and the range of motion")
       ->type_name("FILE");
+  app.add_option(
+         "--linkage", a.linkage,
+         "With --path: certify motions of a robot of several links (.urdf); the path has a line of joint values "
+         "for each way-point")
+      ->type_name("FILE");
+  app.add_option("--srdf", a.srdf, "With --linkage: the SRDF file whose disable_collisions are not compared")
+      ->type_name("FILE");
+  app.add_option("--obstacle", a.obstacles, "With --linkage: an obstacle, as in scenes; may be repeated")
+      ->type_name("SHAPE")
+      ->expected(1)
+      ->take_all();
   app.add_flag("--exact", a.exact, "With --verdict: exact volumes of overlaps, which may have thousands of digits");
   app.add_option("-o,--output", a.outputs,
                  "Write the answer: .json report, .path (OMPL matrix), .glb (animated glTF), .csv (time stamps), else "

@@ -27,6 +27,9 @@ struct Arguments {
   std::string free_directions;
   std::string range;
   std::string verdict;
+  std::string linkage;
+  std::string srdf;
+  std::vector<std::string> obstacles;  ///< of the linkage
   bool exact = false;
   std::vector<std::string> outputs;
   std::string page;

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// One run: certify the path motion by motion, write its proof, the report, pages and glTF files. What is said of a path
+// is the same for robots of one body and of several links (linkage_run.cpp).
 #include "apps/planner/command/runs.h"
 
 #include <Eigen/Geometry>
@@ -9,16 +12,13 @@
 #include "apps/planner/rigid/certified_path.h"
 #include "apps/program/exact_json.h"
 #include "nef/base/error.h"
-#include "nef/base/timing/stopwatch.h"
+#include "nef/base/interruption.h"
+#include "nef/base/timing/time_limit.h"
 
 namespace nef::planner {
 namespace {
 
 using nlohmann::json;
-
-const char* status_text(MotionVerdict::Status status) {
-  return std::array{"path", "blocked", "undecided"}.at(static_cast<std::size_t>(status));
-}
 
 json pose_json(const RigidPose& pose) {
   json quaternion = json::array();
@@ -27,26 +27,18 @@ json pose_json(const RigidPose& pose) {
 }
 
 json motion_json(const MotionVerdict& verdict) {
-  json result{{"status", status_text(verdict.status)}, {"touches", verdict.touches}, {"parts", verdict.cells}};
+  json result{{"status", status_name(verdict.status)}, {"touches", verdict.touches}, {"parts", verdict.cells}};
   if (verdict.pose) {
     result["collision"] = pose_json(*verdict.pose);
     result["collision"]["parameter"] = verdict.parameter;
   }
-  if (verdict.status == MotionVerdict::Status::kUndecided) {
-    json& ranges = result["undecided"];
-    for (const auto& part : verdict.undecided) {
-      if (!ranges.empty() && ranges.back()[1] == part[0]) {
-        ranges.back()[1] = part[1];
-      } else {
-        ranges.push_back({part[0], part[1]});
-      }
-    }
-  }
+  if (verdict.status == MotionVerdict::Status::kUndecided) result["undecided"] = parts_json(verdict.undecided);
   return result;
 }
 
 json certified_json(const CertifiedPath& path, const std::vector<RigidPose>& poses, const Scene& scene) {
-  json result{{"scene", scene.name}, {"status", status_text(path.status)}, {"motions", "rigid"}};
+  json result{
+      {"scene", scene.name}, {"status", status_name(path.status)}, {"motions", "rigid"}, {"verdicts", json::array()}};
   for (const RigidPose& pose : poses) result["path"].push_back(pose_json(pose));
   for (const MotionVerdict& verdict : path.motions) result["verdicts"].push_back(motion_json(verdict));
   if (path.blocked) result["blocked_segment"] = *path.blocked;
@@ -54,25 +46,15 @@ json certified_json(const CertifiedPath& path, const std::vector<RigidPose>& pos
 }
 
 void print(const CertifiedPath& path) {
-  std::cout << status_text(path.status);
-  if (path.status == MotionVerdict::Status::kFree) {
-    if (path.motions.size() == 1) {
-      std::cout << ": the motion is free";
-    } else {
-      std::cout << ": all " << path.motions.size() << " motions are free";
-    }
-  } else if (path.blocked) {
+  std::vector<MotionVerdict::Status> motions;
+  for (const MotionVerdict& verdict : path.motions) motions.push_back(verdict.status);
+  std::cout << certified_text(path.status, motions);
+  if (path.blocked) {
     const MotionVerdict& verdict = path.motions[*path.blocked];
     std::cout << ": motion " << *path.blocked << " collides at position";
     for (const Rational& x : verdict.pose->position) std::cout << ' ' << nearest_double(x);
     std::cout << ", quaternion";
     for (const Rational& x : verdict.pose->quaternion) std::cout << ' ' << nearest_double(x);
-  } else {
-    std::cout << ": motions";
-    for (std::size_t i = 0; i < path.motions.size(); ++i) {
-      if (path.motions[i].status == MotionVerdict::Status::kUndecided) std::cout << ' ' << i;
-    }
-    std::cout << " come too close to obstacles to be decided";
   }
   std::cout << '\n';
 }
@@ -117,26 +99,64 @@ std::vector<view::Layer> certified_layers(const CertifiedPath& path, std::vector
 
 }  // namespace
 
+json parts_json(const std::vector<std::array<double, 2>>& parts) {
+  json ranges = json::array();
+  for (const auto& part : parts) {
+    if (!ranges.empty() && ranges.back()[1] == part[0]) {
+      ranges.back()[1] = part[1];
+    } else {
+      ranges.push_back({part[0], part[1]});
+    }
+  }
+  return ranges;
+}
+
+std::string certified_text(MotionVerdict::Status status, const std::vector<MotionVerdict::Status>& motions) {
+  std::string text = status_name(status);
+  if (status == MotionVerdict::Status::kFree) {
+    text +=
+        motions.size() == 1 ? ": the motion is free" : ": all " + std::to_string(motions.size()) + " motions are free";
+  } else if (status == MotionVerdict::Status::kUndecided && motions.empty()) {
+    text += ": the time was over";
+  } else if (status == MotionVerdict::Status::kUndecided) {
+    text += ": motions";
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      if (motions[i] == MotionVerdict::Status::kUndecided) text += ' ' + std::to_string(i);
+    }
+    text += " come too close to obstacles to be decided";
+  }
+  return text;
+}
+
+int certified_exit_code(MotionVerdict::Status status) {
+  if (status == MotionVerdict::Status::kFree) return 0;
+  return status == MotionVerdict::Status::kCollides ? 1 : 5;
+}
+
 int run_certify(const Arguments& a, const Scene& scene, const std::vector<RigidPose>& poses) {
   exclude(a, "a path with rotations", {"--tight", "--queries", "--widest", "--widest-box"});
   require_extensions(a, "for a path with rotations", {"json", "glb", "html"});
-  const Stopwatch watch;
+  const TimeLimit limit(a.time, a.session.monitor);
   const Scene unturned = with_robot_as_in_its_file(scene, a.session.monitor);
   const MotionChecker checker = MotionChecker::of_scene(unturned, a.session.monitor);
-  const double setup_s = watch.seconds();
+  const double setup_s = limit.passed();
   CheckLimits limits;
   limits.keep_parts = !a.proof.empty();
-  const CertifiedPath path = certify(checker, poses, MotionTiming::kSlerp, limits);
+  CertifiedPath path;
+  try {
+    path = certify(checker, poses, MotionTiming::kSlerp, limits, limit.monitor());
+  } catch (const Interrupted&) {
+    path.status = MotionVerdict::Status::kUndecided;
+  }
   write_path_proof(a, checker, poses, path);
   tell(a, {"certify",
            scene.name,
            [&] { return certified_json(path, poses, scene); },
-           {{"setup", setup_s, {}}, {"op", watch.seconds() - setup_s, {}}},
+           {{"setup", setup_s, {}}, {"op", limit.passed() - setup_s, {}}},
            [&] { print(path); },
            nullptr,
            [&] { return certified_layers(path, poses, unturned, checker); }});
-  if (path.status == MotionVerdict::Status::kFree) return 0;
-  return path.status == MotionVerdict::Status::kCollides ? 1 : 5;
+  return certified_exit_code(path.status);
 }
 
 }  // namespace nef::planner

@@ -26,7 +26,7 @@ bool same_poses(const std::vector<RigidPose>& a, const std::vector<RigidPose>& b
 void write_path_proof(const Arguments& a, const MotionChecker& checker, const std::vector<RigidPose>& poses,
                       const CertifiedPath& known) {
   if (a.proof.empty()) return;
-  const std::optional<PathProof> proof = make_path_proof(checker, poses, known);
+  const std::optional<PathProof> proof = make_path_proof(checker, poses, known, a.session.monitor);
   if (proof) {
     write_file(a.proof, proof_text(*proof));
   } else {
@@ -39,8 +39,8 @@ void write_translation_proof(const Arguments& a, const Scene& scene, const FreeS
   if (a.proof.empty()) return;
   std::string text;
   try {
-    text = proof_text(a.tight && given.empty() ? proof_of_tight_passages(scene, *free)
-                                               : proof_of_answer(scene, free, answer, given));
+    text = proof_text(a.tight && given.empty() ? proof_of_tight_passages(scene, *free, a.session.monitor)
+                                               : proof_of_answer(scene, free, answer, given, a.session.monitor));
   } catch (const InputError& error) {
     throw InputError("--proof " + a.proof + ": " + error.what());
   }

@@ -49,6 +49,7 @@ int run(const Arguments& a) {
   if (!a.range.empty()) return run_range(a);
   if (!a.verdict.empty()) return run_verdict(a);
   if (!a.assembly.empty()) return run_assembly(a);
+  if (!a.linkage.empty()) return run_linkage(a);
   Scene scene = scene_of(a);
   if (const std::optional<int> code = run_check_proof(a, scene)) return *code;
   if (!a.check_proof.empty() && (!scene.rotation || !a.given_path.empty())) {

@@ -4,6 +4,7 @@
 // asked for and returns the exit code; errors in data and options that it does not know are thrown as nef::Error.
 #pragma once
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -13,6 +14,7 @@
 #include "apps/planner/mechanism/range_of_motion.h"
 #include "apps/planner/path/answer.h"
 #include "apps/planner/proofs/path_proof.h"
+#include "apps/planner/rigid/motion_checker.h"
 #include "apps/planner/scene/scene.h"
 #include "apps/planner/turning/turning_search.h"
 #include "apps/view/layer.h"
@@ -42,6 +44,15 @@ int run_assembly(const Arguments& a);
 /// --path with poses that are turned: certifies it, and shows the robot moving along it (a blocked path up to the pose
 /// that collides). 0 every motion is free, 1 one collides, 5 undecided.
 int run_certify(const Arguments& a, const Scene& scene, const std::vector<RigidPose>& poses);
+
+/// --linkage: the same for a path of the joints of a robot of several links.
+int run_linkage(const Arguments& a);
+/// Parts of a motion in a report; neighbours are joined.
+nlohmann::json parts_json(const std::vector<std::array<double, 2>>& parts);
+/// What is known of a path, for people; of a blocked one only that it is. Without motions the time was over.
+std::string certified_text(MotionVerdict::Status status, const std::vector<MotionVerdict::Status>& motions);
+/// The exit code of what is known of a path.
+int certified_exit_code(MotionVerdict::Status status);
 
 /// A scene whose robot only translates: paths, queries, the path of --path (`given`), OMPL's planners. `widest`, if not
 /// null, is reported, too. 0 path, 1 infeasible or blocked, 3 invalid start or goal, 4 no answer of an OMPL planner, 5

@@ -9,8 +9,6 @@
 namespace nef::planner {
 namespace {
 
-constexpr view::Color kRobot{230, 120, 20};
-constexpr view::Color kObstacles{130, 140, 155};
 constexpr view::Color kPath{20, 90, 200};
 constexpr view::Color kFree{120, 190, 230};
 constexpr view::Color kTight{200, 30, 110};
@@ -61,9 +59,9 @@ std::vector<view::Layer> layers_of(const std::vector<ShownSet>& parts) {
 
 std::vector<view::Layer> scene_layers(const Scene& scene, const std::optional<AffineMap>& start,
                                       const std::optional<AffineMap>& goal, bool has_path, const FreeSpace* free) {
-  std::vector<ShownSet> parts{{"robot", start ? transform(scene.robot, *start) : scene.robot, kRobot}};
-  if (goal) parts.push_back({"robot at the goal", transform(scene.robot, *goal), kRobot, 0.3});
-  parts.push_back({"obstacles", unite_all(scene.obstacles), kObstacles, 0.35});
+  std::vector<ShownSet> parts{{"robot", start ? transform(scene.robot, *start) : scene.robot, kRobotColor}};
+  if (goal) parts.push_back({"robot at the goal", transform(scene.robot, *goal), kRobotColor, 0.3});
+  parts.push_back({"obstacles", unite_all(scene.obstacles), kObstaclesColor, kObstaclesOpacity});
   if (free != nullptr) {
     parts.push_back({kTightName, tight_part(*free), kTight});
     parts.push_back({"free space", free->set(), kFree, 0.3, false});

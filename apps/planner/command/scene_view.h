@@ -15,6 +15,12 @@
 
 namespace nef::planner {
 
+/// Colours of layers.
+inline constexpr view::Color kRobotColor{230, 120, 20};
+inline constexpr view::Color kObstaclesColor{130, 140, 155};
+/// How see-through obstacles are.
+inline constexpr double kObstaclesOpacity = 0.35;
+
 /// How long a motion plays.
 inline constexpr double kPlaySeconds = 10;
 

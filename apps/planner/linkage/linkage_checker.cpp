@@ -17,8 +17,9 @@ namespace nef::planner {
 /// One call of LinkageChecker::check.
 class LinkageExamination {
  public:
-  LinkageExamination(const LinkageChecker& checker, const JointMotion& motion, const CheckLimits& limits)
-      : checker_(checker), motion_(motion), limits_(limits), parts_(limits.in_order) {
+  LinkageExamination(const LinkageChecker& checker, const JointMotion& motion, const CheckLimits& limits,
+                     const Monitor& monitor)
+      : checker_(checker), motion_(motion), limits_(limits), monitor_(monitor), parts_(limits.in_order) {
     limits_.depth = std::min(limits_.depth, 40U);  // parameters and their complements are exact doubles
   }
 
@@ -70,6 +71,7 @@ class LinkageExamination {
 
   // False if the examination has ended.
   bool examine(const Part& part) {
+    monitor_.check_interruption();
     ++verdict_.cells;
     const bool last = part.depth >= limits_.depth || verdict_.cells >= limits_.max_cells;
     std::vector<Open> rest;
@@ -134,6 +136,7 @@ class LinkageExamination {
   const LinkageChecker& checker_;
   JointMotion motion_;
   CheckLimits limits_;
+  const Monitor& monitor_;
   MotionParts<std::vector<Open>> parts_;
   LinkageVerdict verdict_;
   RoughPolytope rough_moving_;
@@ -169,14 +172,15 @@ void LinkageChecker::compare(std::size_t link, std::optional<std::size_t> other)
 }
 
 LinkageVerdict LinkageChecker::check(std::span<const double> from, std::span<const double> to,
-                                     const CheckLimits& limits) const {
+                                     const CheckLimits& limits, const Monitor& monitor) const {
   NEF_ASSERT(from.size() == linkage_.dimension() && to.size() == from.size());
-  return LinkageExamination(*this, {from, to}, limits).run();
+  return LinkageExamination(*this, {from, to}, limits, monitor).run();
 }
 
 LinkageVerdict LinkageChecker::check(std::span<const double> values) const {
   NEF_ASSERT(values.size() == linkage_.dimension());
-  return LinkageExamination(*this, {values, values}, {}).run_still();
+  const Monitor nobody;
+  return LinkageExamination(*this, {values, values}, {}, nobody).run_still();
 }
 
 }  // namespace nef::planner

@@ -43,9 +43,9 @@ class LinkageChecker {
   LinkageChecker(Linkage linkage, RigidBody obstacles);
 
   /// Limits mean what they do for MotionChecker; max_exact and keep_parts do nothing. There must be a value for each
-  /// joint. O(pairs) poses, and for each part of a pair what comes close.
+  /// joint. O(pairs) poses, and for each part of a pair what comes close. `monitor` can stop it (Interrupted).
   [[nodiscard]] LinkageVerdict check(std::span<const double> from, std::span<const double> to,
-                                     const CheckLimits& limits = {}) const;
+                                     const CheckLimits& limits = {}, const Monitor& monitor = {}) const;
   /// Joints that stay.
   [[nodiscard]] LinkageVerdict check(std::span<const double> values) const;
 

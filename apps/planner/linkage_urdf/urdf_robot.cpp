@@ -6,6 +6,7 @@
 #include "apps/planner/linkage_urdf/urdf_robot.h"
 
 #include "nef/base/error.h"
+#include "nef/io/number_text.h"
 
 #ifdef PLANNER_WITH_URDF
 #include <console_bridge/console.h>
@@ -34,6 +35,32 @@ Linkage UrdfRobot::linkage(const Monitor& monitor) const {
     result.links.push_back({link.name, std::move(body), link.joint});
   }
   return result;
+}
+
+std::vector<std::string> UrdfRobot::joint_names() const {
+  std::vector<std::string> names;
+  for (std::size_t i = 1; i < links.size(); ++i) {
+    if (links[i].joint.kind != LinkageJoint::Kind::kFixed) names.push_back(links[i].joint_name);
+  }
+  return names;
+}
+
+std::optional<std::string> UrdfRobot::complaint_about(std::span<const double> values) const {
+  std::size_t number = 0;
+  for (std::size_t i = 1; i < links.size(); ++i) {
+    const UrdfLink& link = links[i];
+    if (link.joint.kind == LinkageJoint::Kind::kFixed) continue;
+    const double value = values[number++];
+    if (link.continuous || (link.lower <= value && value <= link.upper)) continue;
+    std::string text = "the value ";
+    append_number(text, value);
+    text += " of joint '" + link.joint_name + "' is not within its limits, ";
+    append_number(text, link.lower);
+    text += " to ";
+    append_number(text, link.upper);
+    return text;
+  }
+  return std::nullopt;
 }
 
 #ifndef PLANNER_WITH_URDF
@@ -151,6 +178,7 @@ class UrdfReader {
       case urdf::Joint::CONTINUOUS:
         made.lower = -M_PI;
         made.upper = M_PI;
+        made.continuous = true;
         break;
       default:
         fail(where + " is neither fixed, revolute, continuous nor prismatic");

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct UrdfLink {
   /// Limits of the joint's value: the file's, or -pi and pi if the joint is continuous. Of a fixed joint 0.
   double lower = 0;
   double upper = 0;
+  bool continuous = false;  ///< the joint turns without end: its limits do not bound it
 };
 
 /// What a URDF file says of a robot's motions.
@@ -34,6 +36,12 @@ struct UrdfRobot {
   std::vector<UrdfLink> links;  ///< the root first, parents before their children, children in the file's order
   std::vector<std::array<std::size_t, 2>> allowed;  ///< pairs of links that are not compared, of an SRDF file
   Messages messages;                                ///< what was done to the meshes
+
+  /// The names of the joints that have a value, in the order of the values.
+  [[nodiscard]] std::vector<std::string> joint_names() const;
+  /// What is wrong with values of these joints: the first one beyond the limits of a joint that is not continuous, as a
+  /// text; nothing if all are within. There must be a value for each joint.
+  [[nodiscard]] std::optional<std::string> complaint_about(std::span<const double> values) const;
 
   /// The links with the pieces of their shapes.
   [[nodiscard]] Linkage linkage(const Monitor& monitor = {}) const;

@@ -41,10 +41,10 @@ PathProof proof_of_answer(const Scene& scene, const FreeSpace* free, const Answe
   if (answer.status == Answer::Status::kUndecided) throw InputError("there is no answer to prove: it is undecided");
   const std::vector<RigidPose> poses = poses_about(scene, answer, given);
   if (poses.empty()) throw InputError("the scene has no start and goal; add them");
-  const MotionChecker checker = MotionChecker::of_scene(scene);
+  const MotionChecker checker = MotionChecker::of_scene(scene, monitor);
   const bool is_path = answer.status == Answer::Status::kPath;
   const auto claimed = is_path ? PathProof::Claim::Status::kFree : PathProof::Claim::Status::kBlocked;
-  std::optional<PathProof> proof = make_path_proof(checker, poses);
+  std::optional<PathProof> proof = make_path_proof(checker, poses, monitor);
   if (!proof || proof->claim.status != claimed) {
     throw InputError("robot and obstacles touch at a surface, and proofs cannot state contacts with surfaces");
   }

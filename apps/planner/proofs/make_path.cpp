@@ -81,8 +81,9 @@ std::optional<Rational3> rounded_normal(const Vector3d& found, const Points& a, 
 
 class PathProver {
  public:
-  PathProver(const MotionChecker& checker, std::span<const RigidPose> poses, const CertifiedPath& known)
-      : checker_(checker), known_(known) {
+  PathProver(const MotionChecker& checker, std::span<const RigidPose> poses, const CertifiedPath& known,
+             const Monitor& monitor)
+      : checker_(checker), known_(known), monitor_(monitor) {
     proof_.claim.status = known.status == MotionVerdict::Status::kFree ? PathProof::Claim::Status::kFree
                                                                        : PathProof::Claim::Status::kBlocked;
     proof_.claim.contact = checker.contact();
@@ -101,6 +102,7 @@ class PathProver {
       return std::move(proof_);
     }
     for (std::size_t m = 0; m < known_.motions.size(); ++m) {
+      monitor_.tell_progress("proving motions", m, known_.motions.size());
       const RigidMotion motion = this->motion(m);
       const MotionCells cells(motion);
       std::vector<PathProof::Part>& parts = proof_.motions.emplace_back();
@@ -137,6 +139,7 @@ class PathProver {
     std::vector<PathProof::Plane> planes;
     const MotionCell cell = cells.part(part[0], part[1]);
     for (std::uint32_t i = 0; i < proof_.claim.robot.size(); ++i) {
+      monitor_.check_interruption();
       const Points swept = cells.exact_images(part[0], part[1], proof_.claim.robot[i]);
       const std::array<Rational3, 2> box = box_of(swept);
       for (std::uint32_t j = 0; j < proof_.claim.obstacles.size(); ++j) {
@@ -196,6 +199,7 @@ class PathProver {
 
   const MotionChecker& checker_;
   const CertifiedPath& known_;
+  const Monitor& monitor_;
   std::vector<std::array<Rational3, 2>> boxes_;  // of the obstacles' pieces
   PathProof proof_;
 };
@@ -203,15 +207,16 @@ class PathProver {
 }  // namespace
 
 std::optional<PathProof> make_path_proof(const MotionChecker& checker, std::span<const RigidPose> poses,
-                                         const CertifiedPath& known) {
+                                         const CertifiedPath& known, const Monitor& monitor) {
   if (known.status == MotionVerdict::Status::kUndecided) return std::nullopt;
-  return PathProver(checker, poses, known).run();
+  return PathProver(checker, poses, known, monitor).run();
 }
 
-std::optional<PathProof> make_path_proof(const MotionChecker& checker, std::span<const RigidPose> poses) {
+std::optional<PathProof> make_path_proof(const MotionChecker& checker, std::span<const RigidPose> poses,
+                                         const Monitor& monitor) {
   CheckLimits limits;
   limits.keep_parts = true;
-  return make_path_proof(checker, poses, certify(checker, poses, MotionTiming::kSlerp, limits));
+  return make_path_proof(checker, poses, certify(checker, poses, MotionTiming::kSlerp, limits, monitor), monitor);
 }
 
 }  // namespace nef::planner

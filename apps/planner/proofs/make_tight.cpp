@@ -133,7 +133,7 @@ std::optional<PathProof> make_tight_proof(const Scene& scene, const FreeSpace& f
     const auto cell = std::find_if(passage.cells.begin(), passage.cells.end(),
                                    [&](CellId c) { return free.cells().dimension(c) == passage.dimension; });
     const RigidPose pose{free.point_in(*cell, monitor), {1, 0, 0, 0}};
-    std::optional<PathProof> stays = make_path_proof(checker, std::span(&pose, 1));
+    std::optional<PathProof> stays = make_path_proof(checker, std::span(&pose, 1), monitor.quiet());
     if (!stays || stays->claim.status != PathProof::Claim::Status::kFree || stays->motions[0].size() != 1) {
       return std::nullopt;
     }

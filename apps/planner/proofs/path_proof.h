@@ -130,12 +130,14 @@ struct PathProof {
 
 /// The proof of what is known of a path; nothing if that is kUndecided. `known` must come from `checker` with the
 /// timing kSlerp and CheckLimits::keep_parts. O(parts pieces of the robot times pieces of obstacles), and some
-/// milliseconds for each pair and part in which they touch.
+/// milliseconds for each pair and part in which they touch. `monitor` is told how many motions are done, and can stop
+/// it.
 std::optional<PathProof> make_path_proof(const MotionChecker& checker, std::span<const RigidPose> poses,
-                                         const CertifiedPath& known);
+                                         const CertifiedPath& known, const Monitor& monitor = {});
 
 /// The same for a path that is not certified yet.
-std::optional<PathProof> make_path_proof(const MotionChecker& checker, std::span<const RigidPose> poses);
+std::optional<PathProof> make_path_proof(const MotionChecker& checker, std::span<const RigidPose> poses,
+                                         const Monitor& monitor = {});
 
 /// The proof that start and goal lie in different components of the free positions; nothing if there is none: both are
 /// in one component, the components have no distance, or only surfaces are in the way. The barrier is the boundary of

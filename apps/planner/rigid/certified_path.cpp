@@ -8,14 +8,15 @@
 namespace nef::planner {
 
 CertifiedPath certify(const MotionChecker& checker, std::span<const RigidPose> poses, MotionTiming timing,
-                      const CheckLimits& limits) {
+                      const CheckLimits& limits, const Monitor& monitor) {
   using Status = MotionVerdict::Status;
   if (poses.empty()) throw InputError("a path needs one pose at least");
   CertifiedPath result;
   const std::size_t motions = std::max<std::size_t>(poses.size() - 1, 1);
   for (std::size_t i = 0; i < motions; ++i) {
+    monitor.tell_progress("certifying motions", i, motions);
     const RigidPose& to = poses[std::min(i + 1, poses.size() - 1)];
-    result.motions.push_back(checker.check(RigidMotion(poses[i], to, timing), limits));
+    result.motions.push_back(checker.check(RigidMotion(poses[i], to, timing), limits, monitor));
     const Status status = result.motions.back().status;
     if (status == Status::kCollides && !result.blocked) result.blocked = i;
     if (status == Status::kUndecided && result.status == Status::kFree) result.status = Status::kUndecided;

@@ -22,9 +22,11 @@ struct CertifiedPath {
   std::optional<std::size_t> blocked;  ///< kCollides: the first motion that collides
 };
 
-/// Certifies all motions of a path of one pose at least. O(motions); see MotionChecker for one.
+/// Certifies all motions of a path of one pose at least. O(motions); see MotionChecker for one. `monitor` is told how
+/// many motions are done, and can stop it (Interrupted).
 CertifiedPath certify(const MotionChecker& checker, std::span<const RigidPose> poses,
-                      MotionTiming timing = MotionTiming::kSlerp, const CheckLimits& limits = {});
+                      MotionTiming timing = MotionTiming::kSlerp, const CheckLimits& limits = {},
+                      const Monitor& monitor = {});
 
 /// The robot of a scene as it is in its own file, and the rest of the scene: paths of a .cfg file are about that, while
 /// the robot of the Scene is at the orientation of start and goal.

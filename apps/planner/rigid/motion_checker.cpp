@@ -7,6 +7,7 @@
 #include "apps/planner/rigid/motion_checker.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -22,8 +23,14 @@ namespace nef::planner {
 /// One call of MotionChecker::check.
 class MotionExamination {
  public:
-  MotionExamination(const MotionChecker& checker, const RigidMotion& motion, const CheckLimits& limits)
-      : checker_(checker), motion_(motion), cells_(motion), limits_(limits), parts_(limits.in_order) {
+  MotionExamination(const MotionChecker& checker, const RigidMotion& motion, const CheckLimits& limits,
+                    const Monitor& monitor)
+      : checker_(checker),
+        motion_(motion),
+        cells_(motion),
+        limits_(limits),
+        monitor_(monitor),
+        parts_(limits.in_order) {
     limits_.depth = std::min(limits_.depth, 40U);  // parameters and their complements are exact doubles
   }
 
@@ -81,6 +88,7 @@ class MotionExamination {
 
   // False if the examination has ended.
   bool examine(const Part& part) {
+    monitor_.check_interruption();
     ++verdict_.cells;
     const bool last = part.depth >= limits_.depth || verdict_.cells >= limits_.max_cells;
     // A whole motion is free more rarely than it collides in the middle.
@@ -180,12 +188,17 @@ class MotionExamination {
   const RigidMotion& motion_;
   MotionCells cells_;
   CheckLimits limits_;
+  const Monitor& monitor_;
   MotionParts<std::vector<Pair>> parts_;
   std::size_t exact_tests_ = 0;
   MotionVerdict verdict_;
   RoughPolytope rough_robot_;
   std::uint32_t placed_ = kNone;  // the piece that it is, in the cell that is looked at
 };
+
+const char* status_name(MotionVerdict::Status status) {
+  return std::array{"path", "blocked", "undecided"}.at(static_cast<std::size_t>(status));
+}
 
 MotionChecker::MotionChecker(RigidBody robot, RigidBody obstacles, ContactRule contact,
                              std::optional<std::array<Rational3, 2>> box)
@@ -212,13 +225,14 @@ MotionVerdict MotionChecker::check(const RigidPose& pose) const {
     verdict.pose = pose;
     return verdict;
   }
-  MotionExamination examination(*this, still, {});
+  const Monitor nobody;
+  MotionExamination examination(*this, still, {}, nobody);
   examination.collides_at(0);
   return examination.take();
 }
 
-MotionVerdict MotionChecker::check(const RigidMotion& motion, const CheckLimits& limits) const {
-  return MotionExamination(*this, motion, limits).run();
+MotionVerdict MotionChecker::check(const RigidMotion& motion, const CheckLimits& limits, const Monitor& monitor) const {
+  return MotionExamination(*this, motion, limits, monitor).run();
 }
 
 }  // namespace nef::planner

@@ -44,6 +44,9 @@ struct MotionVerdict {
   std::size_t cells = 0;  ///< parts of the motion that were looked at
 };
 
+/// The word of reports: "path", "blocked" or "undecided".
+const char* status_name(MotionVerdict::Status status);
+
 /// How long a motion is examined.
 struct CheckLimits {
   unsigned depth = 20;           ///< parts are halved so many times at most, at most 40
@@ -88,8 +91,9 @@ class MotionChecker {
   /// Exact. For a collision the verdict says where; it is never kUndecided.
   [[nodiscard]] MotionVerdict check(const RigidPose& pose) const;
   /// Never wrong; kUndecided if the limits are reached. Both ends are checked exactly, unless the motion is decided
-  /// before.
-  [[nodiscard]] MotionVerdict check(const RigidMotion& motion, const CheckLimits& limits = {}) const;
+  /// before. `monitor` can stop it (Interrupted).
+  [[nodiscard]] MotionVerdict check(const RigidMotion& motion, const CheckLimits& limits = {},
+                                    const Monitor& monitor = {}) const;
 
   /// What it was made of.
   /// @{

@@ -215,7 +215,7 @@ std::string FrameTasks::make(std::size_t task, const nef::Monitor& monitor) cons
   json entry{{"frame", frames_[task]}, {"images", nef::utf8(folder.string())}, {"images_state", state_of(folder)}};
   const nef::ThreadStopwatch watch;
   try {
-    const Result result = stream_->frame(folder, std::nullopt, {}, monitor);
+    const Result result = stream_->frame(folder, std::nullopt, monitor);
     entry.update(entry_of(result, outputs_.of(frames_[task]), arguments_, monitor));
   } catch (const nef::Error& error) {
     entry.update(json{{"state", "failed"}, {"message", nef::utf8(error.what())}});
@@ -322,7 +322,7 @@ int make_frames(const Arguments& a) {
     if (done) a.session.show_phase("frame", record.done(), tasks.size());
     return done;
   };
-  nef::parallel_for(tasks.size(), a.session.monitor, [&](std::size_t i, const nef::Monitor& own) {
+  nef::parallel_for(tasks.size(), a.session.monitor.quiet(), [&](std::size_t i, const nef::Monitor& own) {
     if (recorded([&] { return record.keep(i); })) return;
     const std::string line = tasks.make(i, own);
     recorded([&] {

@@ -174,10 +174,7 @@ int run(const Arguments& a) {
   const Options options = to_options(a);
   const Scene scene = scene_of(a);
   if (a.check) return check_scene(a, scene);
-  Result result = compute(scene, scene_folder(a.scene), options,
-                          [&session](Phase phase, const std::string& view, std::size_t done, std::size_t total) {
-                            session.show_phase(std::string(phase_name(phase)) + " " + view, done, total);
-                          });
+  Result result = compute(scene, scene_folder(a.scene), options);
   session.note_all(result.notes);
   session.note_all(refinement_lines(result));
   if (const auto note = cut_note(result)) session.note(*note);
@@ -206,6 +203,10 @@ int run_command(int argc, char** argv) {
   if (first == "board") return run_board_command(argc - 1, argv + 1);
   if (first == "calibrate") return run_calibrate_command(argc - 1, argv + 1);
   nef::Session session("visual_hull", std::cout, std::cerr);
+  const nef::ProgressFunction show = [&session](const char* phase, std::size_t done, std::size_t total) {
+    session.show_phase(phase, done, total);
+  };
+  session.monitor = session.monitor.telling(show);
   Arguments arguments(session);
   CLI::App app{
       "Exact visual hulls from calibrated silhouettes: a closed solid, in rational numbers, without tolerance."};

@@ -2,8 +2,8 @@
 #include "apps/visual_hull/cones/intersection.h"
 
 #include <Eigen/Core>
+#include <atomic>
 #include <cmath>
-#include <mutex>
 
 #include "nef/base/threads/parallel.h"
 #include "nef/polyhedron.h"
@@ -43,22 +43,19 @@ std::vector<Part> pair_across(std::vector<Part> parts) {
 
 }  // namespace
 
-nef::Polyhedron intersect_parts(std::vector<Part> parts, const nef::Monitor& monitor,
-                                const std::function<void(std::size_t, std::size_t)>& progress) {
+nef::Polyhedron intersect_parts(std::vector<Part> parts, const nef::Monitor& monitor) {
   if (parts.empty()) return nef::Polyhedron::everything();
   std::vector<Part> level = pair_across(std::move(parts));
   const std::size_t total = level.size() - 1;
-  std::size_t done = 0;
-  std::mutex telling;
+  std::atomic<std::size_t> done = 0;
   while (level.size() > 1) {
     const std::size_t pairs = level.size() / 2;
     std::vector<Part> next(pairs);
     nef::parallel_for(pairs, monitor, [&](std::size_t i, const nef::Monitor& own) {
-      next[i] = {nef::intersect(level[2 * i].solid, level[2 * i + 1].solid, own), level[2 * i].axis};
+      next[i] = {nef::intersect(level[2 * i].solid, level[2 * i + 1].solid, own.quiet()), level[2 * i].axis};
       level[2 * i] = {};  // its memory is not needed any more
       level[2 * i + 1] = {};
-      const std::lock_guard<std::mutex> lock(telling);
-      if (progress) progress(++done, total);
+      own.tell_progress("intersection", ++done, total);
     });
     for (const Part& part : next) {
       if (part.solid.is_empty()) return {};

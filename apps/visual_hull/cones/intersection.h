@@ -3,7 +3,6 @@
 // The intersection of many cones.
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -20,10 +19,9 @@ struct Part {
 
 /// The closed set of points that all parts keep. The answer does not depend on the order of the
 /// parts. Pairs of views that look in different directions meet first: their intersections are
-/// small. Pairs are worked on by the threads of `monitor`. `progress`, if there
-/// is one, is told the number of intersections done and their total, by one thread at a time.
-nef::Polyhedron intersect_parts(std::vector<Part> parts, const nef::Monitor& monitor = {},
-                                const std::function<void(std::size_t, std::size_t)>& progress = {});
+/// small. Pairs are worked on by the threads of `monitor`, which
+/// is told the number of intersections done and their total.
+nef::Polyhedron intersect_parts(std::vector<Part> parts, const nef::Monitor& monitor = {});
 
 /// The first part at which the intersection of all up to it, in the order given and within `box`,
 /// is empty, or, with `solid`, has no interior any more. Nothing if that never happens.

@@ -4,7 +4,7 @@
 // linkages. It gives tuples, which Python makes into the public classes.
 #include <pybind11/stl.h>
 
-#include "apps/planner/linkage/linkage_checker.h"
+#include "apps/planner/linkage/linkage_path.h"
 #include "apps/planner/linkage_urdf/urdf_robot.h"
 #include "apps/planner/mechanism/range_of_motion.h"
 #include "apps/planner/verdict/verdict.h"
@@ -150,6 +150,11 @@ std::shared_ptr<plan::LinkageChecker> linkage_checker(const py::list& links,
 }
 
 // (status, parameter, link, other link or None, undecided parts)
+py::tuple told(const plan::LinkageVerdict& found) {
+  return py::make_tuple(plan::status_name(found.status), found.parameter, found.link, found.other, found.undecided);
+}
+
+// The verdict on one motion, as above.
 py::tuple check_linkage(const std::shared_ptr<plan::LinkageChecker>& checker, const std::vector<double>& from,
                         const std::vector<double>& to) {
   const std::size_t dimension = checker->linkage().dimension();
@@ -157,16 +162,32 @@ py::tuple check_linkage(const std::shared_ptr<plan::LinkageChecker>& checker, co
     throw InputError("the linkage has " + std::to_string(dimension) + " joints with a value, not " +
                      std::to_string(std::max(from.size(), to.size())));
   }
-  const plan::LinkageVerdict found =
-      call(kSmallCall, [=](const Monitor&) { return from == to ? checker->check(from) : checker->check(from, to); });
-  using Status = plan::MotionVerdict::Status;
-  const char* status = found.status == Status::kFree       ? "path"
-                       : found.status == Status::kCollides ? "blocked"
-                                                           : "undecided";
-  return py::make_tuple(status, found.parameter, found.link, found.other, found.undecided);
+  return told(call(kSmallCall, [=](const Monitor& monitor) {
+    return from == to ? checker->check(from) : checker->check(from, to, {}, monitor);
+  }));
 }
 
-// (links, allowed, messages); a link is (name, body, kind, parent, shift, turn, axis, joint, lower, upper).
+// (status, verdicts on motions, the first motion that collides or None). `seconds` and
+// `progress` may be None.
+py::tuple certify_linkage(const std::shared_ptr<plan::LinkageChecker>& checker,
+                          const std::vector<std::vector<double>>& path, const py::object& seconds,
+                          const py::object& progress) {
+  const ProgressFunction listener(progress);
+  const plan::CertifiedLinkagePath found = call(kSmallCall, [=, time = time_of(seconds)](const Monitor& monitor) {
+    return certified_in_time<plan::CertifiedLinkagePath>(
+        time, listener, monitor, [&](const Monitor& limited) { return plan::certify(*checker, path, {}, limited); });
+  });
+  py::list motions;
+  for (const plan::LinkageVerdict& verdict : found.motions) motions.append(told(verdict));
+  return py::make_tuple(plan::status_name(found.status), motions, found.blocked);
+}
+
+std::vector<std::vector<double>> read_joint_path(const std::string& file, const std::vector<std::string>& joints) {
+  return call(kSmallCall, [=](const Monitor&) { return plan::read_joint_path(file, joints); });
+}
+
+// (links, allowed, messages); a link is (name, body, kind, parent, shift, turn, axis, joint, lower, upper,
+// continuous).
 py::tuple read_urdf(const std::string& file, const std::string& srdf, const std::string& crossings, py::handle close) {
   MeshOptions meshes = mesh_options(crossings, close);
   const plan::UrdfRobot robot = call(kSmallCall, [=](const Monitor& monitor) mutable {
@@ -184,7 +205,7 @@ py::tuple read_urdf(const std::string& file, const std::string& srdf, const std:
     const std::array<double, 4>& q = joint.turn;
     links.append(py::make_tuple(link.name, link.shape, kind, joint.parent, floats(joint.shift),
                                 py::make_tuple(q[0], q[1], q[2], q[3]), floats(joint.axis), link.joint_name, link.lower,
-                                link.upper));
+                                link.upper, link.continuous));
   }
   return py::make_tuple(links, robot.allowed, robot.messages);
 }
@@ -197,10 +218,12 @@ void bind_mechanisms(py::module_& m) {
   m.def("range_of_motion", &range_of_motion);
   m.def("range_of_file", &range_of_file);
   m.def("read_urdf", &read_urdf);
+  m.def("read_joint_path", &read_joint_path);
   m.def("reads_urdf", &plan::reads_urdf);
   py::class_<plan::LinkageChecker, std::shared_ptr<plan::LinkageChecker>>(m, "LinkageChecker")
       .def(py::init(&linkage_checker))
       .def("check", &check_linkage)
+      .def("certify", &certify_linkage)
       .def_property_readonly("dimension", [](const plan::LinkageChecker& c) { return c.linkage().dimension(); });
 }
 

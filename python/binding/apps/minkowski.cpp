@@ -72,7 +72,7 @@ auto with_sums(const HowToSum& how, Compute&& compute) {
   const auto counts = std::make_shared<minkowski::MinkowskiReport>();
   auto result = call(kSmallCall, [=, threads = how.threads](const Monitor& monitor) {
     const nef::ProgressFunction tell = [&](const char* phase, std::size_t done, std::size_t total) {
-      if (told && phase == minkowski::kSumPhase) told(monitor, done, total);
+      if (told && phase == minkowski::kSumPhase) told(monitor, std::string(phase), done, total);
       monitor.tell_progress(phase, done, total);
     };
     return compute(minkowski::MinkowskiOptions{options.strategy, monitor.on_threads(threads).telling(tell)},
@@ -191,7 +191,7 @@ void define_module(py::module_& m) {
        R"(The Minkowski sum { x + y : x in a, y in b } of any two sets, exactly.
 
 Open and closed parts, lower-dimensional parts and cavities count; empty if one is empty. threads: 0 for as many as the
-machine has; the result does not depend on it. progress: a function that is called with (thousandths of the work done, 1000).
+machine has; the result does not depend on it. progress: a function of (phase, done, total): thousandths of the work done, 1000.
 union: how sums are made, 'convolution' (without cells), 'queue' (of sums of cells) or 'auto'; the set is the same. report: a
 dict that receives what was chosen and why ('strategies'), and counts, as in the report of the program `minkowski`. Raises UnsupportedError for unbounded operands with too many reflex edges.)");
   bind("erode", nef::minkowski::erode,

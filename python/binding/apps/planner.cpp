@@ -15,7 +15,6 @@
 #include "binding/apps/planner.h"
 #include "binding/base/bindings.h"
 #include "binding/base/mesh_options.h"
-#include "nef/base/timing/time_limit.h"
 
 namespace nef::python {
 namespace {
@@ -68,11 +67,6 @@ py::object invalid_end(const plan::Scene& scene, py::handle start, py::handle go
   result["status"] = plan::status_name(answer->status);
   result["collision"] = plan::describe(*answer->collision, scene);
   return result;
-}
-
-// Nothing for None.
-std::optional<double> time_of(const py::object& seconds) {
-  return seconds.is_none() ? std::nullopt : std::optional(seconds.cast<double>());
 }
 
 // A proof about a robot that turns, with what it is about.
@@ -208,12 +202,17 @@ std::vector<plan::RigidPose> poses_of(const py::sequence& path) {
   return poses;
 }
 
-// (status, collision, undecided motions, touching motions) of such a path.
-py::tuple certify(const plan::Scene& scene, const py::sequence& path) {
+// (status, collision, undecided motions, touching motions) of such a path. `seconds` and
+// `progress` may be None.
+py::tuple certify(const plan::Scene& scene, const py::sequence& path, const py::object& seconds,
+                  const py::object& progress) {
   const std::vector<plan::RigidPose> poses = poses_of(path);
-  const plan::CertifiedPath found = call(kSmallCall, [scene, poses](const Monitor& monitor) {
+  const ProgressFunction told(progress);
+  const plan::CertifiedPath found = call(kSmallCall, [=, time = time_of(seconds)](const Monitor& monitor) {
     const auto checker = plan::MotionChecker::of_scene(plan::with_robot_as_in_its_file(scene, monitor), monitor);
-    return plan::certify(checker, poses);
+    return certified_in_time<plan::CertifiedPath>(time, told, monitor, [&](const Monitor& limited) {
+      return plan::certify(checker, poses, plan::MotionTiming::kSlerp, {}, limited);
+    });
   });
   using Status = plan::MotionVerdict::Status;
   py::list undecided;
@@ -222,10 +221,7 @@ py::tuple certify(const plan::Scene& scene, const py::sequence& path) {
     if (found.motions[i].status == Status::kUndecided) undecided.append(i);
     if (found.motions[i].status == Status::kFree && found.motions[i].touches) touching.append(i);
   }
-  const char* status = found.status == Status::kFree       ? "path"
-                       : found.status == Status::kCollides ? "blocked"
-                                                           : "undecided";
-  return py::make_tuple(status, collision_of(found), undecided, touching);
+  return py::make_tuple(plan::status_name(found.status), collision_of(found), undecided, touching);
 }
 
 // The text of the proof of what is known of such a path; None if that is undecided.
@@ -233,7 +229,7 @@ py::object prove_path(const plan::Scene& scene, const py::sequence& path) {
   const std::vector<plan::RigidPose> poses = poses_of(path);
   const std::optional<plan::PathProof> proof = call(kSmallCall, [scene, poses](const Monitor& monitor) {
     const auto checker = plan::MotionChecker::of_scene(plan::with_robot_as_in_its_file(scene, monitor), monitor);
-    return plan::make_path_proof(checker, poses);
+    return plan::make_path_proof(checker, poses, monitor);
   });
   return proof ? py::object(py::str(plan::proof_text(*proof))) : py::none();
 }
@@ -296,6 +292,13 @@ class Space {
       scene.start = from;
       scene.goal = to;
       return plan::proof_of_answer(scene, &problem->free_space(), problem->solve(from, to, {}, monitor), {}, monitor);
+    }));
+  }
+
+  // The text of the proof that the tight passages are tight.
+  std::string prove_tight() const {
+    return plan::proof_text(call(kSmallCall, [problem = problem_](const Monitor& monitor) {
+      return plan::proof_of_tight_passages(problem->scene(), problem->free_space(), monitor);
     }));
   }
 
@@ -418,6 +421,7 @@ void define_module(py::module_& m) {
       .def("solve", &Space::solve)
       .def("check", &Space::check)
       .def("prove", &Space::prove)
+      .def("prove_tight", &Space::prove_tight)
       .def("free", &Space::free)
       .def("passages", &Space::passages)
       .def("components", &Space::components);

@@ -5,11 +5,15 @@
 
 #include <pybind11/pybind11.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/planner/assembly/free_directions.h"
 #include "apps/planner/assembly/parts.h"
+#include "apps/planner/rigid/motion_checker.h"
+#include "binding/base/call.h"
+#include "nef/base/timing/time_limit.h"
 
 namespace nef::python {
 
@@ -18,6 +22,28 @@ planner::Assembly assembly_of(const std::vector<std::string>& names, const std::
 
 /// The assembly of the closures of parts.
 planner::Assembly closed(planner::Assembly assembly, const Monitor& monitor);
+
+/// A time limit; nothing for None.
+inline std::optional<double> time_of(const pybind11::object& seconds) {
+  return seconds.is_none() ? std::nullopt : std::optional(seconds.cast<double>());
+}
+
+/// What certify(monitor) says of a path, or that it is undecided if that takes longer than so many seconds. `progress`
+/// is told how far it has come.
+template <typename Path, typename Certify>
+Path certified_in_time(const std::optional<double>& seconds, const ProgressFunction& progress, const Monitor& monitor,
+                       Certify&& certify) {
+  const TimeLimit limit(seconds, monitor);
+  const nef::ProgressFunction tell = told_by(progress, monitor);
+  try {
+    return certify(progress ? limit.monitor().telling(tell) : limit.monitor());
+  } catch (const Interrupted&) {
+    monitor.check_interruption();
+    Path unknown;
+    unknown.status = planner::MotionVerdict::Status::kUndecided;
+    return unknown;
+  }
+}
 
 /// Three ints.
 pybind11::tuple from_triple(const Integer3& triple);

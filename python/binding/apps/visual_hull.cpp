@@ -262,13 +262,11 @@ py::dict compute(const nef::visual_hull::Scene& scene, const std::string& folder
                  const nef::visual_hull::Options& options, bool textured, const py::object& progress) {
   const ProgressFunction told(progress);
   const auto [made, texture] = call(kSmallCall, [=](const Monitor& monitor) {
-    const nef::visual_hull::Progress forward = [&](nef::visual_hull::Phase phase, const std::string& name,
-                                                   std::size_t done, std::size_t total) {
-      told(monitor, std::string(nef::visual_hull::phase_name(phase)), name, done, total);
-    };
+    const nef::ProgressFunction tell = told_by(told, monitor);
     nef::visual_hull::Options watched = options;
-    watched.monitor = monitor.on_threads(options.monitor.threads());
-    nef::visual_hull::Result hull = nef::visual_hull::compute(scene, folder, watched, forward);
+    watched.monitor = monitor.on_threads(options.monitor.threads()).telling(tell);
+    nef::visual_hull::Result hull = nef::visual_hull::compute(scene, folder, watched);
+    watched.monitor = watched.monitor.quiet();
     std::optional<TexturedMesh> on_it;
     if (textured && !hull.vanished) {
       Mesh mesh = float_mesh(hull.hull, watched.monitor);

@@ -66,6 +66,7 @@ int run(const Arguments& a) {
   }
   nlohmann::json widest;
   if (a.widest || a.widest_box) widest = make_widest(a, scene);
+  if (scene.turns_freely) return run_rigid(a, scene);
   if (scene.rotation) return run_turning(a, scene, widest);
   return run_translations(a, scene, widest, path);
 }

@@ -43,6 +43,17 @@ int run_assembly(const Arguments& a);
 /// that collides). 0 every motion is free, 1 one collides, 5 undecided.
 int run_certify(const Arguments& a, const Scene& scene, const std::vector<RigidPose>& poses);
 
+/// The keys of a report on a path that was certified: scene, status, motions, path, verdicts, blocked_segment.
+nlohmann::json certified_json(const CertifiedPath& path, const std::vector<RigidPose>& poses, const Scene& scene);
+/// The robot moves along the path; a blocked one ends at the pose that is known to collide. `scene` has the robot as it
+/// is in its own file.
+std::vector<view::Layer> certified_layers(const CertifiedPath& path, std::vector<RigidPose> poses, const Scene& scene,
+                                          const MotionChecker& checker);
+
+/// A scene whose robot turns freely: plans a path whose motions are certified. 0 a path, 3 invalid start or goal, 5
+/// undecided.
+int run_rigid(const Arguments& a, const Scene& scene);
+
 /// A scene whose robot only translates: paths, queries, the path of --path (`given`), OMPL's planners. `widest`, if not
 /// null, is reported, too. 0 path, 1 infeasible or blocked, 3 invalid start or goal, 4 no answer of an OMPL planner, 5
 /// undecided.

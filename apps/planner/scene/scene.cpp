@@ -67,7 +67,7 @@ void require_no_rotation(const Scene& scene) {
     throw InputError(
         scene.name +
         ": the robot turns freely (\"rotation\" is \"SO(3)\", or start and goal are turned about different "
-        "axes), but this works for translations only; certify a path instead (--path)");
+        "axes), but this works for translations only; plan a path, or certify one (--path)");
   }
   if (!scene.rotation) return;
   throw InputError(scene.name +

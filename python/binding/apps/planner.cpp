@@ -10,6 +10,7 @@
 #include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid/certified_path.h"
 #include "apps/planner/rigid/pose_file.h"
+#include "apps/planner/rigid_search/rigid_planning.h"
 #include "apps/planner/scene/scene.h"
 #include "apps/planner/turning/turning_search.h"
 #include "binding/apps/planner.h"
@@ -156,6 +157,41 @@ py::dict solve_turning(const plan::Scene& scene, std::size_t max_cells, const py
   return result;
 }
 
+// A question about a robot that turns freely, from the start of the scene to its goal.
+py::dict solve_rigid(const plan::Scene& scene, const py::object& max_cells, const py::object& seconds) {
+  plan::RigidLimits limits;
+  if (!max_cells.is_none()) {
+    limits.max_samples = limits.max_samples / limits.max_slices * max_cells.cast<std::size_t>();
+    limits.max_slices = max_cells.cast<std::size_t>();
+  } else if (!seconds.is_none()) {
+    limits.max_samples = limits.max_slices = std::numeric_limits<std::uint32_t>::max();
+  }
+  const plan::RigidAnswer answer = call(kSmallCall, [=, time = time_of(seconds)](const Monitor& monitor) {
+    const TimeLimit limit(time, monitor);
+    const auto checker = plan::MotionChecker::of_scene(scene, monitor);
+    plan::RigidAnswer found = plan::find_rigid_path(scene, checker, limits, limit.monitor());
+    monitor.check_interruption();
+    return found;
+  });
+  py::dict result;
+  result["status"] = plan::status_name(answer.status);
+  py::list points;
+  py::list turns;
+  for (const plan::RigidPose& pose : answer.path) {
+    const py::tuple both = told(pose);
+    points.append(both[0]);
+    turns.append(both[1]);
+  }
+  if (!answer.path.empty()) {
+    result["points"] = points;
+    result["turns"] = turns;
+  }
+  result["samples"] = answer.samples;
+  result["slices"] = answer.slices;
+  if (answer.collision) result["collision"] = plan::describe(*answer.collision, scene);
+  return result;
+}
+
 // The scene with another start and goal: three numbers, or four if the robot turns about an axis, or (position,
 // quaternion) if it turns freely.
 plan::Scene with_ends(const plan::Scene& scene, const py::object& start, const py::object& goal) {
@@ -216,10 +252,10 @@ py::object collision_of(const plan::CertifiedPath& path) {
   return py::make_tuple(*path.blocked, verdict.parameter, told(*verdict.pose));
 }
 
-// The poses in a file (planner --path); None if no pose is turned.
-py::object read_poses(const std::string& path) {
+// The poses in a file (planner --path); None if no pose is turned, unless any will do.
+py::object read_poses(const std::string& path, bool any) {
   const std::vector<plan::RigidPose> poses = call(kSmallCall, [path](const Monitor&) { return plan::read_path(path); });
-  if (std::none_of(poses.begin(), poses.end(), plan::is_turned)) return py::none();
+  if (!any && std::none_of(poses.begin(), poses.end(), plan::is_turned)) return py::none();
   py::list result;
   for (const plan::RigidPose& pose : poses) result.append(told(pose));
   return result;
@@ -440,6 +476,7 @@ void define_module(py::module_& m) {
       .def_property_readonly("cells", &TurningProofOfScene::cells);
   m.def("read_poses", &read_poses);
   m.def("solve_turning", &solve_turning);
+  m.def("solve_rigid", &solve_rigid);
   py::class_<Space>(m, "Space")
       .def(py::init<plan::Scene, unsigned, const py::object&, const py::object&>())
       .def_property_readonly("built", &Space::built)

@@ -165,10 +165,12 @@ class Plan:
 
     - status: 'path', 'infeasible', 'invalid_start', 'invalid_goal', 'blocked' (a given path leaves free space) or
       'undecided' (more time, or of a robot that turns more cells of angles, may decide)
-    - motions: which motions the answer covers: 'translation' (at the orientation of the robot) or 'translation and turning'
+    - motions: which motions the answer covers: 'translation' (at the orientation of the robot), 'translation and turning'
+      (about one axis) or 'rigid' (all)
     - waypoints: the path, a list of three Fractions each; None if there is none
     - turns: of a robot that turns, for each way-point the quaternion w, x, y, z of its rotation, of any length; else None
-    - degrees: the same as floats; else None
+    - degrees: the same as floats, if it turns about an axis; else None
+    - samples, slices: of a robot that turns freely: how many random poses and exact free spaces the search took; else None
     - open_ranges: undecided: the ranges of degrees in question
     - unrounded: numbers of way-points between the ends with more decimals than `digits`
     - length: of the path, a float; None for a robot that turns
@@ -186,6 +188,8 @@ class Plan:
         self.waypoints = answer.get("points")
         self.turns = answer.get("turns")
         self.degrees = answer.get("degrees")
+        self.samples = answer.get("samples")
+        self.slices = answer.get("slices")
         self.open_ranges = answer.get("open_ranges", [])
         self.unrounded = answer.get("unrounded", [])
         self.length = answer.get("length")
@@ -202,12 +206,16 @@ class Plan:
         return self.status == "path"
 
     def __array__(self, dtype=None):
-        """The way-points as an array of shape (N, 3) of the nearest floats; (N, 4) with degrees for a robot that turns."""
+        """The way-points as an array of shape (N, 3) of the nearest floats; (N, 4) with degrees for a robot that turns about
+        an axis; (N, 7) with a unit quaternion w, x, y, z for one that turns freely."""
         if self.waypoints is None:
             raise Error(f"there is no path: {self.status}")
         rows = [[float(x) for x in point] for point in self.waypoints]
         if self.degrees is not None:
             rows = [row + [degrees] for row, degrees in zip(rows, self.degrees)]
+        elif self.turns is not None:
+            turns = numpy.array([[float(x) for x in turn] for turn in self.turns])
+            rows = numpy.hstack([rows, turns / numpy.linalg.norm(turns, axis=1, keepdims=True)])
         return numpy.array(rows, dtype=dtype or float)
 
     def __repr__(self):
@@ -218,7 +226,7 @@ class Plan:
 
 
 class Scene:
-    """A robot that translates among obstacles, and may turn about an axis.
+    """A robot that translates among obstacles, and may turn about an axis or freely.
 
     - robot: a Polyhedron, its reference point at the origin
     - obstacles: a list of Polyhedron
@@ -226,24 +234,26 @@ class Scene:
     - contact: whether the robot may touch obstacles; then passages as narrow as the robot are free
     - names: of the obstacles, for messages
     - rotation: a Rotation if the robot may turn; then it must be a bounded solid. plan() answers for all angles of the
-      range; free_space(), components(), passages() and check() are about translations and raise InputError
+      range; free_space(), components(), passages() and check() are about translations and raise InputError. "SO(3)" if it
+      may turn about all axes; start and goal are (position, quaternion) then
     """
 
     def __init__(self, robot: Polyhedron, obstacles: Sequence[Polyhedron], box: Any = None, contact: bool = True,
-                 names: Optional[Sequence[str]] = None, rotation: Optional[Rotation] = None):
+                 names: Optional[Sequence[str]] = None, rotation: Union[Rotation, str, None] = None):
         if isinstance(obstacles, Polyhedron):
             raise TypeError("obstacles must be a list of Polyhedron: write [obstacle] for one")
         if isinstance(contact, str):
             raise TypeError(f"contact must be True (allow) or False (forbid), not {contact!r}")
-        if isinstance(rotation, str):
-            raise TypeError(f"rotation must be a Rotation, such as Rotation({rotation!r}, 0, 360), not {rotation!r}")
+        if isinstance(rotation, str) and rotation != "SO(3)":
+            raise TypeError(f"rotation must be 'SO(3)' or a Rotation, such as Rotation({rotation!r}, 0, 360), "
+                            f"not {rotation!r}")
         obstacles = list(obstacles)
         if names is None:
             names = [f"obstacle {i}" for i in range(len(obstacles))]
         if len(names) != len(obstacles):
             raise InputError(f"{len(obstacles)} obstacles need as many names, not {len(names)}")
-        turns = None
-        if rotation is not None:
+        turns = rotation
+        if rotation is not None and rotation != "SO(3)":
             axis, low, high = rotation
             if isinstance(axis, str):
                 if axis not in ("x", "y", "z"):
@@ -262,13 +272,14 @@ class Scene:
         return self._scene.obstacles
 
     @property
-    def start(self) -> Optional[Tuple[Fraction, ...]]:
-        """The start that a file gives, or None; with a fourth number, degrees, if the robot turns."""
+    def start(self) -> Optional[Tuple[Any, ...]]:
+        """The start that a file gives, or None; with a fourth number, degrees, if the robot turns about an axis; (position,
+        quaternion) if it turns freely."""
         return self._end(self._scene.start, 3)
 
     @property
-    def goal(self) -> Optional[Tuple[Fraction, ...]]:
-        """The goal that a file gives, or None; with a fourth number, degrees, if the robot turns."""
+    def goal(self) -> Optional[Tuple[Any, ...]]:
+        """The goal that a file gives, or None, as start."""
         return self._end(self._scene.goal, 4)
 
     def _end(self, position, angle):
@@ -291,8 +302,10 @@ class Scene:
         return self._scene.contact
 
     @property
-    def rotation(self) -> Optional[Rotation]:
-        """How the robot may turn; None if it only translates."""
+    def rotation(self) -> Union[Rotation, str, None]:
+        """How the robot may turn, a Rotation or "SO(3)"; None if it only translates."""
+        if self._scene.turns_freely:
+            return "SO(3)"
         return None if self._scene.rotation is None else Rotation(*self._scene.rotation[:3])
 
     @property
@@ -364,8 +377,8 @@ class Scene:
              seconds: Optional[float] = None) -> Plan:
         """A path from start to goal, or a proof that there is none.
 
-        - start, goal: three numbers each, and a fourth, degrees, if the robot turns (that of the scene if it is left out);
-          those of the scene's file if None
+        - start, goal: three numbers each, and a fourth, degrees, if the robot turns about an axis (that of the scene if it is
+          left out); (position, quaternion) if it turns freely; those of the scene's file if None
         - raw: no shortcuts
         - clearance: way-points away from obstacles where possible
         - roomy: use thin passages only where necessary (else: any passage)
@@ -373,13 +386,21 @@ class Scene:
         - quick: shorten the first path found a little, instead of choosing the shortest of several
         - digits: round way-points to this many decimals where the motions stay free
         - seconds: time limit, after which the status is 'undecided'
-        - max_cells: for a robot that turns: maximal number of cells of angles (2000)
+        - max_cells: for a robot that turns about an axis: maximal number of cells of angles (2000); freely: of exact free
+          spaces (2000, or without limit if seconds is given)
+
+        Of a robot that turns freely every motion of a path is certified; a search without a path proves nothing, so the
+        status is 'undecided' then, never 'infeasible'.
         """
         scene = self._scene.with_ends(start, goal)
         if scene.start is None or scene.goal is None:
             raise InputError("a plan needs a start and a goal")
         if digits is not None and not 0 <= digits <= 300:
             raise InputError(f"digits must be from 0 to 300, not {digits}")
+        if scene.turns_freely:
+            if raw or clearance or roomy or quick or min_dimension or digits is not None:
+                raise InputError("a plan of a robot that turns freely takes only max_cells and seconds")
+            return Plan(_planner.solve_rigid(scene, max_cells, seconds), "rigid")
         if scene.rotation is not None:
             if raw or clearance or roomy or quick or min_dimension:
                 raise InputError("a plan of a robot that turns takes only digits, max_cells and seconds")
@@ -424,7 +445,7 @@ class Scene:
             >>> scene.certify(turn).collision.motion
             0
         """
-        return CertifiedPath(*self._scene.certify(_poses_of(path), seconds, progress))
+        return CertifiedPath(*self._scene.certify(_poses_of(path, self._scene.turns_freely), seconds, progress))
 
     def prove(self, path: Any = None, *, start: Any = None, goal: Any = None) -> str:
         """A proof that others can check, as the text of a .proof file (`planner --proof`): of a path, that none of its poses
@@ -447,7 +468,7 @@ class Scene:
         if path is not None:
             if start is not None or goal is not None:
                 raise InputError("a proof is about a path or about a start and a goal, not both")
-            text = self._scene.prove_path(_poses_of(path))
+            text = self._scene.prove_path(_poses_of(path, self._scene.turns_freely))
             if text is None:
                 raise InputError("the path is undecided, so there is no proof")
             return text
@@ -476,10 +497,10 @@ class Scene:
         return self._scene.complaint(text)
 
 
-def _poses_of(path):
+def _poses_of(path, turns_freely):
     """(position, quaternion) for each pose of a list, a Plan or a file."""
     if isinstance(path, (str, os.PathLike)):
-        poses = _planner.read_poses(os.fspath(path))
+        poses = _planner.read_poses(os.fspath(path), turns_freely)
         if poses is None:
             raise InputError(f"{os.fspath(path)}: no pose is turned: use check()")
         return poses

@@ -10,6 +10,7 @@ import sys
 import warnings
 from fractions import Fraction
 
+import numpy
 import pytest
 
 import nef
@@ -291,3 +292,27 @@ def test_proofs(needs, tmp_path):
         holed.prove()
     with pytest.raises(nef.InputError, match="not both"):
         holed.prove([((1, 1, 1), (1, 0, 0, 0))], start=(1, 1, 1))
+
+
+def test_robots_that_turn_freely(needs):
+    planner = needs("planner")
+    path = ROOT / "data" / "planner" / "rigid" / "elbow.json"
+    scene = planner.read(path)
+    assert scene.rotation == "SO(3)" and scene.start == ((-3, 0, 0), (1, 0, 0, 0))
+    report = asked(path)
+    plan = scene.plan()
+    assert plan.status == report["status"] == "path" and plan.motions == report["motions"] == "rigid"
+    assert plan.waypoints == [exact(pose["position"]) for pose in report["path"]]
+    assert plan.turns == [exact(pose["quaternion"]) for pose in report["path"]]
+    assert (plan.samples, plan.slices) == (report["samples"], report["slices"]) and plan.degrees is None
+    assert numpy.asarray(plan).shape == (len(plan.waypoints), 7)
+    assert scene.certify(plan) and json.loads(scene.prove(plan))["claim"]["status"] == "path"
+    # The same scene from its parts; with too little to find a path, and with a start that is not free.
+    made = planner.Scene(scene.robot, scene.obstacles, scene.box, rotation="SO(3)")
+    assert made.plan(scene.start, scene.goal, max_cells=2).status == "undecided"
+    assert made.plan(scene.start, scene.goal, seconds=0).status == "undecided"
+    assert made.plan(((0, 0, 0), (1, 1, 1, 1)), scene.goal).status == "invalid_start"
+    for call in (made.components, made.passages, lambda: made.plan((0, 0, 0), (1, 0, 0)), made.plan,
+                 lambda: made.plan(scene.start, scene.goal, digits=3), lambda: made.plan(((0, 0, 0), (0, 0, 0, 0)))):
+        with pytest.raises(nef.InputError):
+            call()

@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "apps/planner/command/findings.h"
+#include "apps/planner/command/report.h"
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/rigid/certified_path.h"
 #include "apps/program/exact_json.h"
@@ -36,15 +37,6 @@ json motion_json(const MotionVerdict& verdict) {
   return result;
 }
 
-json certified_json(const CertifiedPath& path, const std::vector<RigidPose>& poses, const Scene& scene) {
-  json result{
-      {"scene", scene.name}, {"status", status_name(path.status)}, {"motions", "rigid"}, {"verdicts", json::array()}};
-  for (const RigidPose& pose : poses) result["path"].push_back(pose_json(pose));
-  for (const MotionVerdict& verdict : path.motions) result["verdicts"].push_back(motion_json(verdict));
-  if (path.blocked) result["blocked_segment"] = *path.blocked;
-  return result;
-}
-
 void print(const CertifiedPath& path) {
   std::vector<MotionVerdict::Status> motions;
   for (const MotionVerdict& verdict : path.motions) motions.push_back(verdict.status);
@@ -59,15 +51,23 @@ void print(const CertifiedPath& path) {
   std::cout << '\n';
 }
 
-AffineMap map_of(const RigidPose& pose) { return {rotation_between(pose.quaternion, pose.quaternion), pose.position}; }
-
 Eigen::Quaterniond unit_quaternion(const RigidPose& pose) {
   const Quaternion& q = pose.quaternion;
   return Eigen::Quaterniond(nearest_double(q[0]), nearest_double(q[1]), nearest_double(q[2]), nearest_double(q[3]))
       .normalized();
 }
 
-// The robot moves along the path; a blocked one ends at the pose that is known to collide.
+}  // namespace
+
+json certified_json(const CertifiedPath& path, const std::vector<RigidPose>& poses, const Scene& scene) {
+  json result{
+      {"scene", scene.name}, {"status", status_name(path.status)}, {"motions", kRigid}, {"verdicts", json::array()}};
+  for (const RigidPose& pose : poses) result["path"].push_back(pose_json(pose));
+  for (const MotionVerdict& verdict : path.motions) result["verdicts"].push_back(motion_json(verdict));
+  if (path.blocked) result["blocked_segment"] = *path.blocked;
+  return result;
+}
+
 std::vector<view::Layer> certified_layers(const CertifiedPath& path, std::vector<RigidPose> poses, const Scene& scene,
                                           const MotionChecker& checker) {
   if (path.blocked) {
@@ -96,8 +96,6 @@ std::vector<view::Layer> certified_layers(const CertifiedPath& path, std::vector
   move_along(points, lengths, turn_at, layers);
   return layers;
 }
-
-}  // namespace
 
 json parts_json(const std::vector<std::array<double, 2>>& parts) {
   json ranges = json::array();

@@ -19,9 +19,11 @@ namespace nef::planner {
 /// goal, 5 undecided.
 int exit_code(AnswerStatus status);
 
-/// What an answer is about, key `motions` of reports: translations at one orientation, or turns about an axis, too.
+/// What an answer is about, key `motions` of reports: translations at one orientation, turns about an axis, too, or all
+/// rigid motions.
 inline constexpr const char* kTranslation = "translation";
 inline constexpr const char* kTranslationAndTurning = "translation and turning";
+inline constexpr const char* kRigid = "rigid";
 
 /// A line that names way-points which could not be rounded; nothing if there are none.
 std::string unrounded_text(const std::vector<std::size_t>& waypoints);

@@ -53,6 +53,16 @@ nlohmann::json parts_json(const std::vector<std::array<double, 2>>& parts);
 std::string certified_text(MotionVerdict::Status status, const std::vector<MotionVerdict::Status>& motions);
 /// The exit code of what is known of a path.
 int certified_exit_code(MotionVerdict::Status status);
+/// The keys of a report on a path that was certified: scene, status, motions, path, verdicts, blocked_segment.
+nlohmann::json certified_json(const CertifiedPath& path, const std::vector<RigidPose>& poses, const Scene& scene);
+/// The robot moves along the path; a blocked one ends at the pose that is known to collide. `scene` has the robot as it
+/// is in its own file.
+std::vector<view::Layer> certified_layers(const CertifiedPath& path, std::vector<RigidPose> poses, const Scene& scene,
+                                          const MotionChecker& checker);
+
+/// A scene whose robot turns freely: plans a path whose motions are certified. 0 a path, 3 invalid start or goal, 5
+/// undecided.
+int run_rigid(const Arguments& a, const Scene& scene);
 
 /// A scene whose robot only translates: paths, queries, the path of --path (`given`), OMPL's planners. `widest`, if not
 /// null, is reported, too. 0 path, 1 infeasible or blocked, 3 invalid start or goal, 4 no answer of an OMPL planner, 5

@@ -12,6 +12,7 @@
 #include <cstdint>
 
 #include "nef/number/number.h"
+#include "nef/polyhedron.h"
 
 namespace nef::planner {
 
@@ -32,6 +33,11 @@ struct RigidPose {
   Rational3 position;
   Quaternion quaternion{1, 0, 0, 0};
 };
+
+/// Places a body at a pose.
+inline AffineMap map_of(const RigidPose& pose) {
+  return {rotation_between(pose.quaternion, pose.quaternion), pose.position};
+}
 
 /// How the translation of a motion goes along with its rotation.
 enum class MotionTiming : std::uint8_t {

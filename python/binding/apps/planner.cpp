@@ -10,6 +10,7 @@
 #include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid/certified_path.h"
 #include "apps/planner/rigid/pose_file.h"
+#include "apps/planner/rigid_search/rigid_planning.h"
 #include "apps/planner/scene/scene.h"
 #include "apps/planner/turning/turning_search.h"
 #include "binding/apps/planner.h"
@@ -47,13 +48,40 @@ plan::Scene scene_of(const Polyhedron& robot, const std::vector<Polyhedron>& obs
   scene.obstacles = obstacles;
   scene.obstacle_names = names;
   scene.contact = contact ? plan::ContactRule::kAllow : plan::ContactRule::kForbid;
-  if (!rotation.is_none()) scene.rotation = rotation_of(rotation);
+  if (py::isinstance<py::str>(rotation)) {  // "SO(3)"
+    scene.turns_freely = true;
+    scene.quaternions = {{{1, 0, 0, 0}, {1, 0, 0, 0}}};
+  } else if (!rotation.is_none()) {
+    scene.rotation = rotation_of(rotation);
+  }
   if (!box.is_none()) scene.box = to_corners(box);
   return scene;
 }
 
-py::object optional_triple(const std::optional<Rational3>& point) {
-  return point ? py::object(from_triple(*point)) : py::none();
+py::tuple told(const plan::RigidPose& pose) {
+  py::list quaternion;
+  for (const Rational& x : pose.quaternion) quaternion.append(to_fraction(x));
+  return py::make_tuple(from_triple(pose.position), py::tuple(quaternion));
+}
+
+// Of ((x, y, z), (w, x, y, z)).
+plan::RigidPose pose_of(py::handle item) {
+  const auto pair = item.cast<py::sequence>();
+  if (pair.size() != 2) throw InputError("a pose is a position and a quaternion");
+  const py::sequence quaternion = pair[1];
+  if (quaternion.size() != 4) throw InputError("a quaternion has four numbers: w, x, y, z");
+  plan::RigidPose pose{to_triple(pair[0], "a position"), {}};
+  for (std::size_t k = 0; k < 4; ++k) pose.quaternion[k] = to_rational(quaternion[k]);
+  if (pose.quaternion == plan::Quaternion{}) throw InputError("a rotation's quaternion must not be zero");
+  return pose;
+}
+
+// Start (0) or goal (1): None, a position, or of a robot that turns freely (position, quaternion).
+py::object end_of(const plan::Scene& scene, std::size_t end) {
+  const std::optional<Rational3>& position = end == 0 ? scene.start : scene.goal;
+  if (!position) return py::none();
+  if (!scene.turns_freely) return from_triple(*position);
+  return told(plan::RigidPose{*position, (*scene.quaternions)[end]});
 }
 
 // What a start or goal that is not free hits; None if both are free. Without any free space.
@@ -123,9 +151,56 @@ py::dict solve_turning(const plan::Scene& scene, std::size_t max_cells, const py
   return result;
 }
 
-// The scene with another start and goal: three numbers, or four if the robot turns.
+// A question about a robot that turns freely, from the start of the scene to its goal.
+py::dict solve_rigid(const plan::Scene& scene, const py::object& max_cells, const py::object& seconds) {
+  plan::RigidLimits limits;
+  if (!max_cells.is_none()) {
+    limits.max_samples = limits.max_samples / limits.max_slices * max_cells.cast<std::size_t>();
+    limits.max_slices = max_cells.cast<std::size_t>();
+  } else if (!seconds.is_none()) {
+    limits.max_samples = limits.max_slices = std::numeric_limits<std::uint32_t>::max();
+  }
+  const plan::RigidAnswer answer = call(kSmallCall, [=, time = time_of(seconds)](const Monitor& monitor) {
+    const TimeLimit limit(time, monitor);
+    const auto checker = plan::MotionChecker::of_scene(scene, monitor);
+    plan::RigidAnswer found = plan::find_rigid_path(scene, checker, limits, limit.monitor());
+    monitor.check_interruption();
+    return found;
+  });
+  py::dict result;
+  result["status"] = plan::status_name(answer.status);
+  py::list points;
+  py::list turns;
+  for (const plan::RigidPose& pose : answer.path) {
+    const py::tuple both = told(pose);
+    points.append(both[0]);
+    turns.append(both[1]);
+  }
+  if (!answer.path.empty()) {
+    result["points"] = points;
+    result["turns"] = turns;
+  }
+  result["samples"] = answer.samples;
+  result["slices"] = answer.slices;
+  if (answer.collision) result["collision"] = plan::describe(*answer.collision, scene);
+  return result;
+}
+
+// The scene with another start and goal: three numbers, or four if the robot turns about an axis, or (position,
+// quaternion) if it turns freely.
 plan::Scene with_ends(const plan::Scene& scene, const py::object& start, const py::object& goal) {
   plan::Scene result = scene;
+  if (scene.turns_freely) {
+    const auto take_pose = [&](const py::object& end, std::size_t which, std::optional<Rational3>& position) {
+      if (end.is_none()) return;
+      const plan::RigidPose pose = pose_of(end);
+      position = pose.position;
+      (*result.quaternions)[which] = pose.quaternion;
+    };
+    take_pose(start, 0, result.start);
+    take_pose(goal, 1, result.goal);
+    return result;
+  }
   const auto take = [&](const py::object& end, const char* what, std::optional<Rational3>& position,
                         Rational* degrees) {
     if (end.is_none()) return;
@@ -164,12 +239,6 @@ py::tuple widest(const plan::Scene& scene, bool box, py::handle precision, std::
   return py::make_tuple(bound(found.first.low), bound(found.first.high), found.first.undecided, found.second);
 }
 
-py::tuple told(const plan::RigidPose& pose) {
-  py::list quaternion;
-  for (const Rational& x : pose.quaternion) quaternion.append(to_fraction(x));
-  return py::make_tuple(from_triple(pose.position), py::tuple(quaternion));
-}
-
 // The number of a motion, and the parameter and the pose at which it collides.
 py::object collision_of(const plan::CertifiedPath& path) {
   if (!path.blocked) return py::none();
@@ -177,10 +246,10 @@ py::object collision_of(const plan::CertifiedPath& path) {
   return py::make_tuple(*path.blocked, verdict.parameter, told(*verdict.pose));
 }
 
-// The poses in a file (planner --path); None if no pose is turned.
-py::object read_poses(const std::string& path) {
+// The poses in a file (planner --path); None if no pose is turned, unless any will do.
+py::object read_poses(const std::string& path, bool any) {
   const std::vector<plan::RigidPose> poses = call(kSmallCall, [path](const Monitor&) { return plan::read_path(path); });
-  if (std::none_of(poses.begin(), poses.end(), plan::is_turned)) return py::none();
+  if (!any && std::none_of(poses.begin(), poses.end(), plan::is_turned)) return py::none();
   py::list result;
   for (const plan::RigidPose& pose : poses) result.append(told(pose));
   return result;
@@ -190,13 +259,7 @@ py::object read_poses(const std::string& path) {
 std::vector<plan::RigidPose> poses_of(const py::sequence& path) {
   std::vector<plan::RigidPose> poses;
   for (const py::handle item : path) {
-    const auto pair = item.cast<py::sequence>();
-    if (pair.size() != 2) throw InputError("a pose is a position and a quaternion");
-    const py::sequence quaternion = pair[1];
-    if (quaternion.size() != 4) throw InputError("a quaternion has four numbers: w, x, y, z");
-    plan::RigidPose& pose = poses.emplace_back();
-    pose.position = to_triple(pair[0], "a position");
-    for (std::size_t k = 0; k < 4; ++k) pose.quaternion[k] = to_rational(quaternion[k]);
+    poses.push_back(pose_of(item));
   }
   if (poses.empty()) throw InputError("a path needs a pose");
   return poses;
@@ -401,8 +464,9 @@ void define_module(py::module_& m) {
       .def("certify", &certify)
       .def("prove_path", &prove_path)
       .def("complaint", &complaint_about)
-      .def_property_readonly("start", [](const plan::Scene& s) { return optional_triple(s.start); })
-      .def_property_readonly("goal", [](const plan::Scene& s) { return optional_triple(s.goal); });
+      .def_property_readonly("turns_freely", [](const plan::Scene& s) { return s.turns_freely; })
+      .def_property_readonly("start", [](const plan::Scene& s) { return end_of(s, 0); })
+      .def_property_readonly("goal", [](const plan::Scene& s) { return end_of(s, 1); });
   m.def("read", [](const std::string& path, const std::string& crossings, py::handle close) {
     MeshOptions meshes = mesh_options(crossings, close);
     return call(kSmallCall, [=](const Monitor& monitor) mutable {
@@ -415,6 +479,7 @@ void define_module(py::module_& m) {
       .def_property_readonly("cells", &TurningProofOfScene::cells);
   m.def("read_poses", &read_poses);
   m.def("solve_turning", &solve_turning);
+  m.def("solve_rigid", &solve_rigid);
   py::class_<Space>(m, "Space")
       .def(py::init<plan::Scene, unsigned, const py::object&, const py::object&>())
       .def_property_readonly("built", &Space::built)

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Phases of both searches, each of twice the size of the one before. Slices cost a Minkowski sum each, so of scenes
+// with many pieces fewer are made in a phase. The sizes do not depend on times, so neither does the answer.
+#include "apps/planner/rigid_search/rigid_planning.h"
+
+#include <algorithm>
+
+#include "apps/planner/free_space/collision.h"
+#include "apps/planner/rigid_search/certified_trees.h"
+#include "apps/planner/rigid_search/shorten_poses.h"
+#include "apps/planner/rigid_search/slice_search.h"
+#include "nef/base/interruption.h"
+#include "nef/construct/construct.h"
+
+namespace nef::planner {
+namespace {
+
+constexpr std::size_t kFirstSamples = 500;
+constexpr std::size_t kFirstSlices = 40;
+constexpr std::size_t kLightPairs = 2000;  // pairs of pieces; scenes with more get fewer slices
+
+class RigidPlanning {
+ public:
+  RigidPlanning(const Scene& scene, const MotionChecker& checker, const RigidLimits& limits, const Monitor& monitor)
+      : scene_(scene), question_(rigid_question_of(scene)), checker_(checker), limits_(limits), monitor_(monitor) {}
+
+  RigidAnswer run() {
+    for (const auto& [pose, status] : {std::pair(&question_.start, RigidAnswer::Status::kInvalidStart),
+                                       std::pair(&question_.goal, RigidAnswer::Status::kInvalidGoal)}) {
+      if (checker_.check(*pose).status == MotionVerdict::Status::kFree) continue;
+      Scene there = scene_;
+      there.robot =
+          transform(scene_.robot, {rotation_between(pose->quaternion, pose->quaternion), Rational3{}}, monitor_);
+      answer_.collision = find_collision(there, pose->position, monitor_);
+      answer_.status = status;
+      return std::move(answer_);
+    }
+    if (is_answer({question_.start, question_.goal})) return std::move(answer_);
+    try {
+      search();
+    } catch (const Interrupted&) {
+      count();
+    }
+    return std::move(answer_);
+  }
+
+ private:
+  void search() {
+    trees_.emplace(question_, checker_);
+    const std::size_t pairs =
+        std::max<std::size_t>(checker_.robot().pieces().size() * checker_.obstacles().pieces().size(), 1);
+    std::size_t samples = 0;
+    std::size_t slices = 0;
+    for (std::size_t size = 1; trees_->samples() < limits_.max_samples || !slices_are_done_; size *= 2) {
+      samples = std::min(samples + kFirstSamples * size, limits_.max_samples);
+      if (const auto path = trees_->run(samples, monitor_)) {
+        if (is_answer(*path)) return;
+      }
+      count();
+      const std::size_t some = kFirstSlices * size * kLightPairs / std::max(pairs, kLightPairs);
+      slices = std::min(slices + some, limits_.max_slices);
+      if (search_slices(slices)) return;
+      count();
+    }
+  }
+
+  // True if there is an answer.
+  bool search_slices(std::size_t slices) {
+    if (slices_are_done_) return false;
+    if (slices > 0) {
+      if (slices_ == nullptr) slices_ = std::make_unique<SliceSearch>(scene_, question_, checker_, monitor_);
+      const auto path = slices_->run(slices, monitor_);
+      if (path && is_answer(*path)) return true;
+      // A path that is not certified touches a surface, which slices allow at its border.
+      if (path || slices_->slices() < slices) slices_are_done_ = true;
+    }
+    if (slices >= limits_.max_slices) slices_are_done_ = true;
+    return false;
+  }
+
+  // Takes a path for the answer if all its motions are certified; it is shortened first.
+  bool is_answer(std::vector<RigidPose> path) {
+    if (path.size() > 2) path = shorten(checker_, std::move(path), monitor_);
+    path.front() = question_.start;
+    path.back() = question_.goal;
+    CertifiedPath certified = certify(checker_, path);
+    if (certified.status != MotionVerdict::Status::kFree) return false;
+    answer_.status = RigidAnswer::Status::kPath;
+    answer_.path = std::move(path);
+    answer_.certified = std::move(certified);
+    count();
+    return true;
+  }
+
+  void count() {
+    if (trees_) answer_.samples = trees_->samples();
+    if (slices_ == nullptr) return;
+    answer_.slices = slices_->slices();
+    answer_.rounds = slices_->rounds();
+  }
+
+  const Scene& scene_;
+  RigidQuestion question_;
+  const MotionChecker& checker_;
+  RigidLimits limits_;
+  const Monitor& monitor_;
+  std::optional<CertifiedTrees> trees_;
+  std::unique_ptr<SliceSearch> slices_;
+  bool slices_are_done_ = false;
+  RigidAnswer answer_;
+};
+
+}  // namespace
+
+RigidAnswer find_rigid_path(const Scene& scene, const MotionChecker& checker, const RigidLimits& limits,
+                            const Monitor& monitor) {
+  return RigidPlanning(scene, checker, limits, monitor).run();
+}
+
+}  // namespace nef::planner

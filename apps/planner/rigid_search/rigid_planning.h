@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Paths of a rigid body that translates and turns about all axes.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "apps/planner/path/answer.h"
+#include "apps/planner/rigid/certified_path.h"
+#include "apps/planner/rigid/rigid_question.h"
+#include "nef/base/monitor.h"
+
+namespace nef::planner {
+
+/// How far a search goes.
+struct RigidLimits {
+  std::size_t max_slices = 2000;    ///< exact free spaces at rotations
+  std::size_t max_samples = 32000;  ///< random poses
+};
+
+/// What is known of a question about a rigid body.
+struct RigidAnswer {
+  using Status = AnswerStatus;  ///< kPath, kInvalidStart, kInvalidGoal or kUndecided
+  Status status = Status::kUndecided;
+  /// kPath: way-points from start to goal. Between two the position goes straight and the rotation along the shorter
+  /// arc, at constant speed (MotionTiming::kSlerp).
+  std::vector<RigidPose> path;
+  /// kPath: the proof of each motion.
+  CertifiedPath certified;
+  /// kInvalidStart, kInvalidGoal: what the robot hits there. Nothing if it only touches a surface.
+  std::optional<Collision> collision;
+  std::size_t samples = 0;  ///< random poses that were drawn
+  std::size_t slices = 0;   ///< exact free spaces that were computed
+  unsigned rounds = 0;      ///< of slices that were searched to the end, each finer than the one before
+};
+
+/// Searches in turns by random poses (certified_trees.h), which is quick where there is room, and through exact slices
+/// (slice_search.h), which finds narrow places. Every motion is certified, and checked once more before the path is
+/// returned. A search that ends without a path proves nothing: the answer is kUndecided then, and when the monitor
+/// stops it. The answer is the same in every run unless it is stopped. `checker` must be that of the scene. Throws
+/// InputError unless the scene's robot turns freely and has a start and a goal.
+RigidAnswer find_rigid_path(const Scene& scene, const MotionChecker& checker, const RigidLimits& limits = {},
+                            const Monitor& monitor = {});
+
+}  // namespace nef::planner

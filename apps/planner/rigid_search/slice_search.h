@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A search for a path of a rigid body through slices.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "apps/planner/rigid/motion_checker.h"
+#include "apps/planner/rigid/rigid_question.h"
+#include "nef/base/monitor.h"
+
+namespace nef::planner {
+
+/// Nodes are components of exact free spaces at rotations of a grid (slices.h). Two nodes of neighbouring rotations are
+/// joined by a certified motion between points of both, which turns and moves at once and whose positions are fitted
+/// between the obstacles (motion_fit.h). Where there is none, the slice halfway is made, so the arc is halved. Inside a
+/// node all points are connected, by exact translational paths. Grids and arcs get finer round by round.
+class SliceSearch {
+ public:
+  /// The checker, which must outlive it, is that of the scene. Its start and goal are those of the question, and free.
+  SliceSearch(const Scene& scene, const RigidQuestion& question, const MotionChecker& checker,
+              const Monitor& monitor = {});
+  ~SliceSearch();
+  SliceSearch(const SliceSearch&) = delete;
+  SliceSearch& operator=(const SliceSearch&) = delete;
+
+  /// Goes on until a path is found or so many slices are made in all. Poses from start to goal, each motion certified
+  /// for MotionTiming::kSlerp; or nothing. Throws Interrupted when the monitor stops it; it can go on afterwards.
+  std::optional<std::vector<RigidPose>> run(std::size_t max_slices, const Monitor& monitor);
+
+  /// How many slices were made.
+  [[nodiscard]] std::size_t slices() const;
+  /// How many components of them are nodes.
+  [[nodiscard]] std::size_t nodes() const;
+  /// The number of the last round whose motions were all tried; 0 if there is none.
+  [[nodiscard]] unsigned rounds() const;
+
+ private:
+  class State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace nef::planner

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/rigid_search/slices.h"
+
+#include <algorithm>
+
+#include "apps/planner/free_space/free_positions.h"
+#include "apps/planner/rigid_search/rotations.h"
+#include "nef/construct/construct.h"
+
+namespace nef::planner {
+namespace {
+
+constexpr std::size_t kMostPoints = 16;  // of a component
+
+AffineMap rotation_map(const Quaternion& q) { return {rotation_between(q, q), Rational3{}}; }
+
+// The 24 rotations that permute the axes.
+std::vector<Quaternion> rotations_of_cube() {
+  std::vector<Quaternion> result{{1, 0, 0, 0}};
+  std::vector<Quaternion> found = grid_neighbours(result.front(), 0);
+  found.push_back({0, 1, 0, 0});
+  found.push_back({0, 0, 1, 0});
+  found.push_back({0, 0, 0, 1});
+  for (std::size_t i = 1; i < 4; ++i) {  // half turns about diagonals of faces
+    for (std::size_t j = i + 1; j < 4; ++j) {
+      for (const int sign : {1, -1}) {
+        Quaternion q{};
+        q[i] = 1;
+        q[j] = sign;
+        found.push_back(q);
+      }
+    }
+  }
+  for (const Quaternion& q : found) {
+    const auto zeros = std::count(q.begin(), q.end(), Rational(0));
+    if (zeros != 1 && std::find(result.begin(), result.end(), q) == result.end()) result.push_back(q);
+  }
+  return result;
+}
+
+// Points far from each other, the first one being the first.
+std::vector<std::size_t> spread(const std::vector<Vector3d>& points, std::size_t most) {
+  std::vector<std::size_t> chosen{0};
+  std::vector<double> away(points.size(), std::numeric_limits<double>::infinity());
+  while (chosen.size() < std::min(most, points.size())) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      away[i] = std::min(away[i], (points[i] - points[chosen.back()]).squaredNorm());
+    }
+    chosen.push_back(static_cast<std::size_t>(std::max_element(away.begin(), away.end()) - away.begin()));
+  }
+  return chosen;
+}
+
+}  // namespace
+
+std::optional<std::size_t> Slice::component_at(const Rational3& position) const {
+  const CellId cell = free->locate(ExactPoint(position));
+  if (!free->is_free(cell)) return std::nullopt;
+  const std::uint32_t wanted = free->component(cell);
+  for (std::size_t i = 0; i < components.size(); ++i) {
+    if (components[i].component == wanted) return i;
+  }
+  return std::nullopt;
+}
+
+Slices::Slices(const Scene& scene, const Monitor& monitor) : scene_(scene) {
+  scene_.rotation.reset();
+  scene_.turns_freely = false;
+  scene_.start.reset();
+  scene_.goal.reset();
+  const auto box = bounding_box(scene_.robot);
+  for (const Quaternion& q : rotations_of_cube()) {
+    const Polyhedron turned = transform(scene_.robot, rotation_map(q), monitor);
+    if (bounding_box(turned) == box && equal(turned, scene_.robot)) symmetries_.push_back(q);
+  }
+}
+
+Quaternion Slices::shared(const Quaternion& rotation) const {
+  Quaternion smallest = rotation;
+  for (const Quaternion& symmetry : symmetries_) {
+    smallest = std::min(smallest, canonical(product(rotation, symmetry)));
+  }
+  return smallest;
+}
+
+const Slice& Slices::at(const Quaternion& rotation, const Monitor& monitor) {
+  const Quaternion key = shared(rotation);
+  const auto known = slices_.find(key);
+  if (known != slices_.end()) return known->second;
+  return slices_.emplace(key, made_at(key, monitor)).first->second;
+}
+
+Slice Slices::made_at(const Quaternion& rotation, const Monitor& monitor) const {
+  Scene turned = scene_;
+  turned.robot = transform(scene_.robot, rotation_map(rotation), monitor);
+  Slice slice;
+  slice.free = std::make_shared<const FreeSpace>(free_positions(turned, monitor));
+  const FreeSpace& free = *slice.free;
+  if (free.complex().vertex_count() == 0) {  // all of space or nothing
+    const CellId all = free.locate(ExactPoint(Rational3{}));
+    if (free.is_free(all)) slice.components.push_back({free.component(all), {Rational3{}}, {Vector3d(0, 0, 0)}});
+    return slice;
+  }
+  free.build_roadmap(monitor);
+  const Roadmap& roadmap = free.roadmap();
+  std::map<std::uint32_t, std::vector<ZoneId>> zones;
+  const auto& leaves = free.tree().leaves();
+  for (ZoneId zone = 0; zone < leaves.size(); ++zone) {
+    const CellId cell = leaves[zone].cell;
+    if (cell == kNoCell || leaves[zone].dimension != 3 || free.cells().dimension(cell) != 3) continue;
+    if (free.is_free(cell)) zones[free.component(cell)].push_back(zone);
+  }
+  for (const auto& [component, members] : zones) {
+    SliceComponent& made = slice.components.emplace_back();
+    made.component = component;
+    constexpr std::size_t kMostZones = 256;
+    const std::size_t skip = (members.size() + kMostZones - 1) / kMostZones;
+    std::vector<Rational3> points;
+    std::vector<Vector3d> rounded;
+    for (std::size_t i = 0; i < members.size(); i += skip) {
+      points.push_back(roadmap.interior_point(members[i]));
+      rounded.push_back(to_vector(points.back()));
+    }
+    for (const std::size_t i : spread(rounded, kMostPoints)) {
+      made.points.push_back(points[i]);
+      made.rounded.push_back(rounded[i]);
+    }
+  }
+  return slice;
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Paths of robots that turn freely (certified_trees.h, slices.h, slice_search.h, shorten_poses.h): each is checked at
+// many exact poses by Booleans of the moved robot, which shares nothing with the search. Ways that surely are there are
+// found; what collides is said to.
+#include "apps/planner/rigid_search/rigid_planning.h"
+
+#include <catch2/catch.hpp>
+#include <random>
+#include <set>
+
+#include "apps/planner/free_space/collision.h"
+#include "apps/planner/rigid_search/certified_trees.h"
+#include "apps/planner/rigid_search/rotations.h"
+#include "apps/planner/rigid_search/shorten_poses.h"
+#include "apps/planner/rigid_search/slice_search.h"
+#include "apps/planner/rigid_search/slices.h"
+#include "nef/base/timing/time_limit.h"
+#include "tests/planner/command_helpers.h"
+#include "tests/planner/scene_helpers.h"
+
+namespace nef::planner::test::rigid_planning {
+namespace {
+
+using Status = RigidAnswer::Status;
+
+RigidAnswer answer_of(const Scene& scene, const RigidLimits& limits = {}, const Monitor& monitor = {}) {
+  return find_rigid_path(scene, MotionChecker::of_scene(scene), limits, monitor);
+}
+
+bool collides(const Scene& scene, const RigidPose& pose) {
+  Scene there = scene;
+  there.robot = transform(scene.robot, {map_of(pose).linear, Rational3{}});
+  return find_collision(there, pose.position).has_value();
+}
+
+// The ends are those of the question, the parts are certified, and no pose of some collides.
+void check_path(const Scene& scene, const RigidAnswer& answer, std::size_t poses) {
+  REQUIRE(answer.status == Status::kPath);
+  const RigidQuestion question = rigid_question_of(scene);
+  REQUIRE(answer.path.size() >= 2);
+  CHECK(answer.path.front().position == question.start.position);
+  CHECK(answer.path.front().quaternion == question.start.quaternion);
+  CHECK(answer.path.back().position == question.goal.position);
+  CHECK(answer.path.back().quaternion == question.goal.quaternion);
+  const MotionChecker checker = MotionChecker::of_scene(scene);
+  CHECK(certify(checker, answer.path).status == MotionVerdict::Status::kFree);
+  const std::size_t motions = answer.path.size() - 1;
+  for (std::size_t i = 0; i < motions; ++i) {
+    const RigidMotion motion(answer.path[i], answer.path[i + 1], MotionTiming::kSlerp);
+    for (std::size_t k = 0; k <= poses / motions; ++k) {
+      const double s = static_cast<double>(k) / static_cast<double>(poses / motions + 1);
+      const RigidPose pose = motion.at(s);
+      // Positions in between are rounded, so poses with contact are left to the checker, which says that they are free.
+      if (checker.check(pose).status == MotionVerdict::Status::kFree) {
+        CHECK_FALSE(collides(scene, pose));
+      } else {
+        CHECK(answer.certified.motions[i].touches);
+      }
+    }
+  }
+}
+
+TEST_CASE("A bar turns round an elbow in x, y and z with .2 % of slack", "[rigid]") {
+  const Scene scene = load("rigid/elbow");
+  const RigidAnswer answer = answer_of(scene);
+  check_path(scene, answer, 60);
+  CHECK(answer.slices > 0);
+  const RigidAnswer again = answer_of(scene);  // the same in every run
+  REQUIRE(again.path.size() == answer.path.size());
+  for (std::size_t i = 0; i < answer.path.size(); ++i) {
+    CHECK(again.path[i].position == answer.path[i].position);
+    CHECK(again.path[i].quaternion == answer.path[i].quaternion);
+  }
+}
+
+TEST_CASE("A bar that is longer than the elbow lets through is not said to pass, nor to be stuck", "[rigid]") {
+  Scene scene = load("rigid/elbow");
+  scene.robot = transform(scene.robot, AffineMap{{{{Rational(101, 100), 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {}});
+  const RigidAnswer answer = answer_of(scene, {.max_slices = 30, .max_samples = 600});
+  CHECK(answer.status == Status::kUndecided);
+  CHECK(answer.path.empty());
+  CHECK(answer.slices <= 31);
+  CHECK(answer.samples == 600);
+}
+
+TEST_CASE("Two turns lead an L through a window", "[rigid]") {
+  Scene scene = load("rigid/l_window");
+  // A wider window than that of the file, which takes seconds.
+  const std::string wider = R"J({"robot": "box(0,0,0, 1,1,1)",
+      "obstacles": ["box(-20,4,-20, 20,33/8,20) - box(-1,4,-1, 1,5,1)"]})J";
+  scene.obstacles = scene_of(wider).obstacles;
+  check_path(scene, answer_of(scene), 40);
+}
+
+TEST_CASE("Where there is room no slices are needed", "[rigid]") {
+  const Scene scene =
+      scene_of(R"J({"robot": "box(-1,-1/4,-1/4, 1,1/4,1/4)", "obstacles": ["box(-9,4,-9, 9,5,9) - box(-3,3,-3, 3,6,3)"],
+      "rotation": "SO(3)", "box": [[-9, -9, -9], [9, 9, 9]],
+      "start": {"position": [6, 0, 0], "quaternion": [1, 0, 0, 0]}, "goal": {"position": [6, 8, 0], "quaternion": [1, 1, 0, 0]}})J");
+  const RigidAnswer answer = answer_of(scene, {.max_slices = 0, .max_samples = 2000});
+  check_path(scene, answer, 100);
+  CHECK(answer.slices == 0);
+  // Straight to a goal nearby; no search at all.
+  Scene near = scene;
+  near.goal = near.start;
+  const RigidAnswer straight = answer_of(near);
+  CHECK(straight.path.size() == 2);
+  CHECK(straight.samples == 0);
+  // Stopped at once.
+  const TimeLimit limit(0);
+  CHECK(answer_of(scene, {}, limit.monitor()).status == Status::kUndecided);
+}
+
+TEST_CASE("Start and goal that are not free are said to be, with what they hit", "[rigid]") {
+  const std::string text = R"J({"robot": "box(-1,-1/4,-1/4, 1,1/4,1/4)", "obstacles": ["box(2,-9,-9, 3,9,9)"],
+      "rotation": "SO(3)", "start": {"position": [START, 0, 0], "quaternion": [1, 0, 0, 0]},
+      "goal": {"position": [1.5, 0, 0], "quaternion": GOAL}})J";
+  const auto scene = [&](const std::string& start, const std::string& goal) {
+    std::string made = text;
+    made.replace(made.find("START"), 5, start);
+    return scene_of(made.replace(made.find("GOAL"), 4, goal));
+  };
+  CHECK(answer_of(scene("1.5", "[1, 0, 0, 1]")).status == Status::kInvalidStart);
+  const RigidAnswer answer = answer_of(scene("1", "[1, 0, 0, 0]"));
+  CHECK(answer.status == Status::kInvalidGoal);
+  REQUIRE(answer.collision);
+  CHECK(answer.collision->obstacle == 0);
+  CHECK(answer_of(scene("1", "[1, 0, 0, 1]")).status == Status::kPath);  // it touches the wall at the start
+}
+
+TEST_CASE("The symmetries of a robot are found, and slices are shared", "[rigid]") {
+  const auto slices_of = [](const std::string& robot) {
+    return Slices(scene_of(R"J({"obstacles": ["box(4,4,4, 5,5,5)"], "robot": ")J" + robot + "\"}"));
+  };
+  CHECK(slices_of("box(-1,-1,-1, 1,1,1)").symmetries().size() == 24);
+  CHECK(slices_of("box(-2,-1,-1, 2,1,1)").symmetries().size() == 8);
+  CHECK(slices_of("box(-3,-2,-1, 3,2,1)").symmetries().size() == 4);
+  CHECK(slices_of("box(0,0,0, 1,1,1)").symmetries().size() == 3);
+  CHECK(slices_of("box(0,0,0, 3,2,1)").symmetries().size() == 1);
+  Slices slices = slices_of("box(-2,-1,-1, 2,1,1)");
+  const Slice& slice = slices.at({1, 0, 0, 0}, {});
+  CHECK(&slices.at({0, 1, 0, 0}, {}) == &slice);
+  CHECK(slices.has({1, 1, 0, 0}));
+  CHECK_FALSE(slices.has({1, 0, 0, 1}));
+  REQUIRE(slice.components.size() == 1);
+  CHECK(slice.component_at({0, 0, 0}) == std::size_t{0});
+  CHECK_FALSE(slice.component_at({4, 4, 4}));
+  for (const Rational3& p : slice.components[0].points) CHECK(slice.component_at(p) == std::size_t{0});
+}
+
+TEST_CASE("Paths become shorter, with the same ends", "[rigid]") {
+  const Scene scene = load("rigid/l_window");
+  const MotionChecker checker = MotionChecker::of_scene(scene);
+  const std::vector<RigidPose> detour{
+      {{0, -1, 0}}, {{2, -3, 1}, {2, 0, 1, 0}}, {{-3, -3, 1}, {1, 0, 1, 0}}, {{1, -2, 0}, {3, 0, 1, 0}}, {{-1, -2, 0}}};
+  REQUIRE(certify(checker, detour).status == MotionVerdict::Status::kFree);
+  const std::vector<RigidPose> path = shorten(checker, detour);
+  CHECK(path.size() == 2);
+  CHECK(path.front().position == detour.front().position);
+  CHECK(path.back().position == detour.back().position);
+}
+
+// A bar or an L among boxes, with start and goal anywhere.
+Scene random_scene(std::mt19937& random) {
+  const auto number = [&](int low, int high) { return low + static_cast<int>(random() % unsigned(high - low + 1)); };
+  const auto list = [](int x, int y, int z) {
+    return std::to_string(x) + ", " + std::to_string(y) + ", " + std::to_string(z);
+  };
+  std::string obstacles;
+  for (int i = 0; i < 3; ++i) {
+    const std::array<int, 3> low{number(0, 5), number(0, 5), number(0, 5)};
+    obstacles += (i == 0 ? "\"box(" : ", \"box(") + list(low[0], low[1], low[2]) + ", " +
+                 list(low[0] + number(1, 3), low[1] + number(1, 3), low[2] + number(1, 3)) + ")\"";
+  }
+  const auto pose = [&] {
+    const std::array<int, 6> v{number(0, 6), number(0, 6), number(0, 6), number(-1, 1), number(-1, 1), number(-1, 1)};
+    return R"J({"position": [)J" + list(v[0], v[1], v[2]) + R"J(], "quaternion": [1, )J" + list(v[3], v[4], v[5]) +
+           "]}";
+  };
+  const std::string robot = random() % 2 == 0 ? "box(-1,-1/4,-1/4, 1,1/4,1/2)"
+                                              : "box(-1,-1/4,-1/4, 1,1/4,1/4) + box(-1,-1/4,-1/4, -1/2,1/4,1)";
+  const std::string start = pose();
+  const std::string goal = pose();
+  return scene_of(R"J({"rotation": "SO(3)", "box": [[0,0,0],[6,6,6]], "robot": ")J" + robot + R"J(", "obstacles": [)J" +
+                  obstacles + R"J(], "start": )J" + start + R"J(, "goal": )J" + goal + "}");
+}
+
+// A way on a coarse grid of poses, each motion of it certified: positions are whole numbers, rotations those of level
+// 0.
+bool has_grid_way(const Scene& scene, const MotionChecker& checker) {
+  const RigidQuestion question = rigid_question_of(scene);
+  const auto key = [](const RigidPose& pose) { return std::pair(pose.position, canonical(pose.quaternion)); };
+  std::set<std::pair<Rational3, Quaternion>> seen{key(question.start)};
+  std::vector<RigidPose> open{question.start};
+  while (!open.empty() && seen.size() < 3000) {
+    const RigidPose at = open.back();
+    open.pop_back();
+    std::vector<RigidPose> next;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (const int step : {-1, 1}) {
+        next.push_back(at);
+        next.back().position[k] += step;
+      }
+    }
+    for (const Quaternion& q : grid_neighbours(canonical(at.quaternion), 0)) next.push_back({at.position, q});
+    for (const RigidPose& to : next) {
+      if (seen.count(key(to)) > 0 || !checker.in_box(to.position)) continue;
+      const RigidMotion motion(at, to, MotionTiming::kSlerp);
+      if (checker.check(motion, CheckLimits::for_planners()).status != MotionVerdict::Status::kFree) continue;
+      if (key(to) == key(question.goal)) return true;
+      seen.insert(key(to));
+      open.push_back(to);
+    }
+  }
+  return false;
+}
+
+TEST_CASE("Random scenes: ways of a grid of poses are found, and paths are free", "[rigid]") {
+  std::mt19937 random(20261127);
+  std::size_t found = 0;
+  for (unsigned i = 0; i < seeds(12); ++i) {
+    INFO(i);
+    const Scene scene = random_scene(random);
+    const RigidAnswer answer = answer_of(scene, {.max_slices = 40, .max_samples = 2000});
+    const RigidQuestion question = rigid_question_of(scene);
+    if (answer.status == Status::kInvalidStart || answer.status == Status::kInvalidGoal) {
+      CHECK(collides(scene, answer.status == Status::kInvalidStart ? question.start : question.goal));
+    } else if (answer.status == Status::kPath) {
+      ++found;
+      check_path(scene, answer, 12);
+    } else {
+      CHECK_FALSE(has_grid_way(scene, MotionChecker::of_scene(scene)));
+    }
+  }
+  CHECK(found > 2);
+}
+
+TEST_CASE("The program plans for robots that turn freely", "[rigid]") {
+  const Folder folder;
+  const std::string elbow = source_folder() + "/data/planner/rigid/elbow.json";
+  const std::string files = " -o " + folder.file("a.json") + " -o " + folder.file("a.path") + " -o " +
+                            folder.file("a.glb") + " --page " + folder.file("a.html") + " --proof " +
+                            folder.file("a.proof");
+  const Run run = planner(folder, elbow + files);
+  CHECK(run.code == 0);
+  CHECK_THAT(run.out, Catch::Contains("every motion certified"));
+  CHECK(planner(folder, elbow + " --path " + folder.file("a.json")).code == 0);
+  CHECK_THAT(text_of(folder.file("a.proof")), Catch::Contains("nef_proof"));
+  const std::string open = folder.write("open.json", R"J({"robot": "box(-1,-1/4,-1/4, 1,1/4,1/4)", "rotation": "SO(3)",
+      "obstacles": ["box(2,-9,-9, 3,9,9)"], "start": {"position": [0, 0, 0], "quaternion": [1, 0, 0, 0]},
+      "goal": {"position": [0, 0, 3], "quaternion": [1, 0, 0, 1]}})J");
+  CHECK(planner(folder, open + " --proof " + folder.file("b.proof")).code == 0);
+  CHECK(planner(folder, open + " --check-proof " + folder.file("b.proof")).code == 0);
+  CHECK_THAT(text_of(folder.file("a.json")), Catch::Contains(R"("motions": "rigid")"));
+  CHECK_THAT(text_of(folder.file("a.glb")).substr(0, 4), Catch::Equals("glTF"));
+  const Run stopped = planner(folder, elbow + " --max-cells 2 --json");
+  CHECK(stopped.code == 5);
+  CHECK_THAT(stopped.out, Catch::Contains(R"("status": "undecided")"));
+  CHECK(planner(folder, elbow + " --start 0,0,0,1,1,1,1").code == 3);
+  for (const char* option : {"--tight", "--ompl RRTConnect", "--raw", "--digits 3", "--widest", "-o a.xyz"}) {
+    INFO(option);
+    const Run refused = planner(folder, elbow + " " + option);
+    CHECK(refused.code == 2);
+    CHECK_THAT(refused.err, Catch::Contains("turns freely"));
+  }
+}
+
+}  // namespace
+}  // namespace nef::planner::test::rigid_planning

@@ -218,7 +218,7 @@ class Plan:
 
 
 class Scene:
-    """A robot that translates among obstacles, and may turn about an axis.
+    """A robot that translates among obstacles, and may turn about an axis or freely.
 
     - robot: a Polyhedron, its reference point at the origin
     - obstacles: a list of Polyhedron
@@ -226,24 +226,26 @@ class Scene:
     - contact: whether the robot may touch obstacles; then passages as narrow as the robot are free
     - names: of the obstacles, for messages
     - rotation: a Rotation if the robot may turn; then it must be a bounded solid. plan() answers for all angles of the
-      range; free_space(), components(), passages() and check() are about translations and raise InputError
+      range; free_space(), components(), passages() and check() are about translations and raise InputError. "SO(3)" if it
+      may turn about all axes; start and goal are (position, quaternion) then
     """
 
     def __init__(self, robot: Polyhedron, obstacles: Sequence[Polyhedron], box: Any = None, contact: bool = True,
-                 names: Optional[Sequence[str]] = None, rotation: Optional[Rotation] = None):
+                 names: Optional[Sequence[str]] = None, rotation: Union[Rotation, str, None] = None):
         if isinstance(obstacles, Polyhedron):
             raise TypeError("obstacles must be a list of Polyhedron: write [obstacle] for one")
         if isinstance(contact, str):
             raise TypeError(f"contact must be True (allow) or False (forbid), not {contact!r}")
-        if isinstance(rotation, str):
-            raise TypeError(f"rotation must be a Rotation, such as Rotation({rotation!r}, 0, 360), not {rotation!r}")
+        if isinstance(rotation, str) and rotation != "SO(3)":
+            raise TypeError(f"rotation must be 'SO(3)' or a Rotation, such as Rotation({rotation!r}, 0, 360), "
+                            f"not {rotation!r}")
         obstacles = list(obstacles)
         if names is None:
             names = [f"obstacle {i}" for i in range(len(obstacles))]
         if len(names) != len(obstacles):
             raise InputError(f"{len(obstacles)} obstacles need as many names, not {len(names)}")
-        turns = None
-        if rotation is not None:
+        turns = rotation
+        if rotation is not None and rotation != "SO(3)":
             axis, low, high = rotation
             if isinstance(axis, str):
                 if axis not in ("x", "y", "z"):
@@ -262,13 +264,14 @@ class Scene:
         return self._scene.obstacles
 
     @property
-    def start(self) -> Optional[Tuple[Fraction, ...]]:
-        """The start that a file gives, or None; with a fourth number, degrees, if the robot turns."""
+    def start(self) -> Optional[Tuple[Any, ...]]:
+        """The start that a file gives, or None; with a fourth number, degrees, if the robot turns about an axis; (position,
+        quaternion) if it turns freely."""
         return self._end(self._scene.start, 3)
 
     @property
-    def goal(self) -> Optional[Tuple[Fraction, ...]]:
-        """The goal that a file gives, or None; with a fourth number, degrees, if the robot turns."""
+    def goal(self) -> Optional[Tuple[Any, ...]]:
+        """The goal that a file gives, or None, as start."""
         return self._end(self._scene.goal, 4)
 
     def _end(self, position, angle):
@@ -291,8 +294,10 @@ class Scene:
         return self._scene.contact
 
     @property
-    def rotation(self) -> Optional[Rotation]:
-        """How the robot may turn; None if it only translates."""
+    def rotation(self) -> Union[Rotation, str, None]:
+        """How the robot may turn, a Rotation or "SO(3)"; None if it only translates."""
+        if self._scene.turns_freely:
+            return "SO(3)"
         return None if self._scene.rotation is None else Rotation(*self._scene.rotation[:3])
 
     @property

@@ -19,8 +19,8 @@ namespace {
 constexpr const char* kFooter = R"TEXT(
 A scene is JSON: {"robot": SHAPE, "obstacles": [SHAPE, ...], "start": [x, y, z], "goal": [x, y, z],
 "box": [[x, y, z], [x, y, z]], "reference": [x, y, z], "contact": "allow"|"forbid",
-"rotation": {"axis": "z" or [1, 2, 2], "range": [0, 360]} (then start and goal have a fourth number, degrees)}. SHAPE is
-the path of a mesh or nef file, or an expression such as "box(0,0,0, 9,3,3) - box(4,1,1, 5,2,2)". Numbers are exact:
+"rotation": {"axis": "z" or [1, 2, 2], "range": [0, 360]} (then start and goal have a fourth number, degrees) or
+"SO(3)" (then they are {"position": [x, y, z], "quaternion": [w, x, y, z]})}. SHAPE is the path of a mesh or nef file, or an expression such as "box(0,0,0, 9,3,3) - box(4,1,1, 5,2,2)". Numbers are exact:
 0.1 is one tenth, "1/3" a third. OMPL.app's .cfg files are read too.
 
 An assembly is {"parts": {"name": SHAPE, ...}}, each part at its assembled place. A mechanism is {"moving": SHAPE,
@@ -203,7 +203,7 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--queries", a.queries, "Answer many queries: start and goal as six numbers per line (or JSON)")
       ->type_name("FILE");
   app.add_option("--start", a.start,
-                 "Start to use instead of the scene's; with degrees as fourth number for a robot that turns")
+                 "Start to use instead of the scene's; for a robot that turns, followed by degrees or by qw,qx,qy,qz")
       ->type_name("X,Y,Z");
   app.add_option("--goal", a.goal, "Goal to use instead of the scene's")->type_name("X,Y,Z");
   const auto take_contact = [&a](const std::string& rule) {

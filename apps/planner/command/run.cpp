@@ -19,24 +19,28 @@
 namespace nef::planner {
 namespace {
 
-// A position and, if the robot turns, degrees; if they are left out, those of the scene stay.
-void take_end(const std::string& text, const std::string& option, std::optional<Rational3>& position,
-              Rational* degrees) {
+// A position and, if the robot turns, degrees or a quaternion; if they are left out, those of the scene stay.
+void take_end(const std::string& text, const std::string& option, Scene& scene, bool is_goal) {
   if (text.empty()) return;
   const std::vector<Rational> numbers = parse_numbers(text, option);
-  if (numbers.size() != 3 && (degrees == nullptr || numbers.size() != 4)) {
-    throw InputError(option + ": expected x,y,z" + (degrees == nullptr ? "" : " or x,y,z,degrees") + " instead of '" +
-                     text + "'");
+  const std::size_t more = scene.turns_freely ? 7 : scene.rotation ? 4 : 3;
+  if (numbers.size() != 3 && numbers.size() != more) {
+    const char* known = scene.turns_freely ? " or x,y,z,qw,qx,qy,qz" : scene.rotation ? " or x,y,z,degrees" : "";
+    throw InputError(option + ": expected x,y,z" + known + " instead of '" + text + "'");
   }
-  position = {numbers[0], numbers[1], numbers[2]};
-  if (numbers.size() == 4) *degrees = numbers[3];
+  (is_goal ? scene.goal : scene.start) = {numbers[0], numbers[1], numbers[2]};
+  if (numbers.size() == 4) (is_goal ? scene.rotation->goal : scene.rotation->start) = numbers[3];
+  if (numbers.size() < 7) return;
+  const std::array<Rational, 4> quaternion{numbers[3], numbers[4], numbers[5], numbers[6]};
+  if (quaternion == std::array<Rational, 4>{}) throw InputError(option + ": a rotation's quaternion must not be zero");
+  (*scene.quaternions)[is_goal ? 1 : 0] = quaternion;
 }
 
 Scene scene_of(const Arguments& a) {
   a.session.show_phase("reading " + a.scene);
   Scene scene = read_scene(a.scene, a.session.mesh);
-  take_end(a.start, "--start", scene.start, scene.rotation ? &scene.rotation->start : nullptr);
-  take_end(a.goal, "--goal", scene.goal, scene.rotation ? &scene.rotation->goal : nullptr);
+  take_end(a.start, "--start", scene, false);
+  take_end(a.goal, "--goal", scene, true);
   if (a.contact) scene.contact = *a.contact;
   if (!a.keep_clear.empty()) keep_clear(scene, parse_rational(a.keep_clear), a.session.monitor);
   a.session.note_all(scene.messages);
@@ -57,7 +61,9 @@ int run(const Arguments& a) {
   }
   std::vector<RigidPose> path;
   if (!a.given_path.empty()) path = read_path(a.given_path);
-  if (std::any_of(path.begin(), path.end(), is_turned)) return run_certify(a, scene, path);
+  if (std::any_of(path.begin(), path.end(), is_turned) || (scene.turns_freely && !path.empty())) {
+    return run_certify(a, scene, path);
+  }
   nlohmann::json widest;
   if (a.widest || a.widest_box) widest = make_widest(a, scene);
   if (scene.rotation) return run_turning(a, scene, widest);

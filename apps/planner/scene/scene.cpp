@@ -17,7 +17,18 @@
 namespace nef::planner {
 namespace {
 
+constexpr const char* kFreeRotation = "SO(3)";
+
 void read_rotation(const JsonReader& value, Scene& scene) {
+  if (value.value().is_string()) {
+    if (value.value() != kFreeRotation) {
+      value.fail(
+          R"J(must be "SO(3)", for all rotations, or a range about one axis, as in {"axis": "z", "range": [0, 90]})J");
+    }
+    scene.turns_freely = true;
+    scene.quaternions = {{{1, 0, 0, 0}, {1, 0, 0, 0}}};
+    return;
+  }
   value.require_keys({}, {"axis", "range"});
   AxisRotation& rotation = scene.rotation.emplace();
   if (value.has("axis")) rotation.axis = direction_of(value["axis"]);
@@ -28,8 +39,20 @@ void read_rotation(const JsonReader& value, Scene& scene) {
   rotation.high = range[1];
 }
 
+// Start or goal of a robot that turns freely; `quaternion` receives its rotation.
+Rational3 pose_end_of(const JsonReader& value, std::array<Rational, 4>& quaternion) {
+  if (!value.value().is_object()) {
+    value.fail(R"(expected {"position": [x, y, z], "quaternion": [w, x, y, z]}, since the robot turns freely)");
+  }
+  value.require_keys({"position", "quaternion"});
+  quaternion = value["quaternion"].exactly<4>(&JsonReader::number_of);
+  if (quaternion == std::array<Rational, 4>{}) value["quaternion"].fail("a rotation's quaternion must not be zero");
+  return value["position"].point();
+}
+
 // Start or goal; `angle`, if wanted, receives the fourth number.
 Rational3 end_of(const JsonReader& value, Rational* angle) {
+  if (value.value().is_object()) value.fail(R"J(a pose with a quaternion needs "rotation": "SO(3)" in the scene)J");
   if (!value.value().is_array() || value.value().size() != 4) return value.point();
   if (angle == nullptr) value.fail("expected three numbers; a fourth one, degrees, needs a 'rotation' in the scene");
   const std::array<Rational, 4> numbers = value.exactly<4>(&JsonReader::number_of);
@@ -41,9 +64,10 @@ Rational3 end_of(const JsonReader& value, Rational* angle) {
 
 void require_no_rotation(const Scene& scene) {
   if (scene.turns_freely) {
-    throw InputError(scene.name +
-                     ": start and goal are turned about different axes, and paths are planned about one: give both the "
-                     "same axis, or certify a given path (--path)");
+    throw InputError(
+        scene.name +
+        ": the robot turns freely (\"rotation\" is \"SO(3)\", or start and goal are turned about different "
+        "axes), but this works for translations only; certify a path instead (--path)");
   }
   if (!scene.rotation) return;
   throw InputError(scene.name +
@@ -83,8 +107,12 @@ Scene parse_scene(const std::string& text, const std::string& folder, const std:
     }
   }
   if (root.has("rotation")) read_rotation(root["rotation"], scene);
-  if (root.has("start")) scene.start = end_of(root["start"], scene.rotation ? &scene.rotation->start : nullptr);
-  if (root.has("goal")) scene.goal = end_of(root["goal"], scene.rotation ? &scene.rotation->goal : nullptr);
+  const auto read_end = [&](const char* key, std::optional<Rational3>& position, Rational* angle, std::size_t end) {
+    if (!root.has(key)) return;
+    position = scene.turns_freely ? pose_end_of(root[key], (*scene.quaternions)[end]) : end_of(root[key], angle);
+  };
+  read_end("start", scene.start, scene.rotation ? &scene.rotation->start : nullptr, 0);
+  read_end("goal", scene.goal, scene.rotation ? &scene.rotation->goal : nullptr, 1);
   if (root.has("contact")) {
     scene.contact = static_cast<ContactRule>(root["contact"].word(std::array{"allow", "forbid"}));
   }

@@ -41,9 +41,11 @@ struct Scene {
   std::optional<Rational3> start;
   std::optional<Rational3> goal;
   std::optional<AxisRotation> rotation;  ///< nothing: it only translates
-  /// How an OMPL.app problem turns the robot of its own file at start and goal: quaternions w, x, y, z.
+  /// How the robot, as it is in its own file, is turned at start and goal: quaternions w, x, y, z of any length but
+  /// zero. For OMPL.app problems and robots that turn freely.
   std::optional<std::array<std::array<Rational, 4>, 2>> quaternions;
-  /// Start and goal of an OMPL.app problem are turned about different axes: paths can be certified, none is planned.
+  /// The robot may turn about all axes (SO(3)): in JSON by its key, in an OMPL.app problem if start and goal are turned
+  /// about different axes. `rotation` is nothing then.
   bool turns_freely = false;
   ContactRule contact = ContactRule::kAllow;
   Messages messages;  ///< what was done to the input
@@ -74,13 +76,15 @@ inline MeshOptions scene_meshes(const Monitor& monitor = {}) {
 ///     { "robot": SHAPE, "obstacles": [SHAPE, ...],
 ///       "reference": POINT, "box": [POINT, POINT], "start": POINT, "goal": POINT,
 ///       "contact": "allow" | "forbid",
-///       "rotation": {"axis": "x" | "y" | "z" | DIRECTION, "range": [degrees, degrees]} }
+///       "rotation": {"axis": "x" | "y" | "z" | DIRECTION, "range": [degrees, degrees]} | "SO(3)" }
 ///
 /// robot and obstacles are required. POINT (and DIRECTION) is three numbers or strings such as "1/3"; a JSON number
 /// is the rational that its text spells (0.1 is one tenth). SHAPE is a string: the path of a mesh or
 /// nef file, relative to the scene, or else an expression of `nef eval` such as
-/// "box(0,0,0, 9,3,3) - box(1,1,1, 2,2,2)". With a rotation, start and goal have a fourth number: degrees. Throws
-/// InputError with one line for anything else. `meshes`: how mesh files are read (read_shape_file), and the Monitor.
+/// "box(0,0,0, 9,3,3) - box(1,1,1, 2,2,2)". With a rotation about an axis, start and goal have a fourth number:
+/// degrees. With SO(3) each is a pose, {"position": POINT, "quaternion": [w, x, y, z]}, the quaternion of any length
+/// but zero. Throws InputError with one line for anything else. `meshes`: how mesh files are read (read_shape_file),
+/// and the Monitor.
 Scene read_scene(const std::string& path, const MeshOptions& meshes = scene_meshes());
 
 /// The same from text; `folder` is where file names begin.
@@ -89,11 +93,10 @@ Scene parse_scene(const std::string& text, const std::string& folder, const std:
 
 /// An OMPL.app problem: [problem] robot, world, start.*, goal.*, volume.*. If the rotations of start and goal are the
 /// same, that one is applied to the robot once, and answers hold for translations at that orientation, as a message
-/// says; if they differ about one axis, the robot may turn about that, by any angle; if the axes differ, too, paths can
-/// be certified, but none is planned. The robot's
-/// reference point (also the centre of rotation) is the mean of its vertices as OMPL.app computes it, unless
-/// `robot.origin = mesh`; our own keys are `contact` and exact numbers such as 1/3. A mesh that bounds no solid is what
-/// meaning_of (nearly_closed.h) says.
+/// says; if they differ about one axis, the robot may turn about that, by any angle; if the axes differ, too, the robot
+/// turns freely. The robot's reference point (also the centre of rotation) is the mean of its vertices as OMPL.app
+/// computes it, unless `robot.origin = mesh`; our own keys are `contact` and exact numbers such as 1/3. A mesh that
+/// bounds no solid is what meaning_of (nearly_closed.h) says.
 Scene read_cfg(const std::string& path, const MeshOptions& meshes = scene_meshes());
 
 /// What of an obstacle the robot may reach, however it is turned about its reference point: all of a bounded one, else

@@ -48,13 +48,40 @@ plan::Scene scene_of(const Polyhedron& robot, const std::vector<Polyhedron>& obs
   scene.obstacles = obstacles;
   scene.obstacle_names = names;
   scene.contact = contact ? plan::ContactRule::kAllow : plan::ContactRule::kForbid;
-  if (!rotation.is_none()) scene.rotation = rotation_of(rotation);
+  if (py::isinstance<py::str>(rotation)) {  // "SO(3)"
+    scene.turns_freely = true;
+    scene.quaternions = {{{1, 0, 0, 0}, {1, 0, 0, 0}}};
+  } else if (!rotation.is_none()) {
+    scene.rotation = rotation_of(rotation);
+  }
   if (!box.is_none()) scene.box = to_corners(box);
   return scene;
 }
 
-py::object optional_triple(const std::optional<Rational3>& point) {
-  return point ? py::object(from_triple(*point)) : py::none();
+py::tuple told(const plan::RigidPose& pose) {
+  py::list quaternion;
+  for (const Rational& x : pose.quaternion) quaternion.append(to_fraction(x));
+  return py::make_tuple(from_triple(pose.position), py::tuple(quaternion));
+}
+
+// Of ((x, y, z), (w, x, y, z)).
+plan::RigidPose pose_of(py::handle item) {
+  const auto pair = item.cast<py::sequence>();
+  if (pair.size() != 2) throw InputError("a pose is a position and a quaternion");
+  const py::sequence quaternion = pair[1];
+  if (quaternion.size() != 4) throw InputError("a quaternion has four numbers: w, x, y, z");
+  plan::RigidPose pose{to_triple(pair[0], "a position"), {}};
+  for (std::size_t k = 0; k < 4; ++k) pose.quaternion[k] = to_rational(quaternion[k]);
+  if (pose.quaternion == plan::Quaternion{}) throw InputError("a rotation's quaternion must not be zero");
+  return pose;
+}
+
+// Start (0) or goal (1): None, a position, or of a robot that turns freely (position, quaternion).
+py::object end_of(const plan::Scene& scene, std::size_t end) {
+  const std::optional<Rational3>& position = end == 0 ? scene.start : scene.goal;
+  if (!position) return py::none();
+  if (!scene.turns_freely) return from_triple(*position);
+  return told(plan::RigidPose{*position, (*scene.quaternions)[end]});
 }
 
 // What a start or goal that is not free hits; None if both are free. Without any free space.
@@ -129,9 +156,21 @@ py::dict solve_turning(const plan::Scene& scene, std::size_t max_cells, const py
   return result;
 }
 
-// The scene with another start and goal: three numbers, or four if the robot turns.
+// The scene with another start and goal: three numbers, or four if the robot turns about an axis, or (position,
+// quaternion) if it turns freely.
 plan::Scene with_ends(const plan::Scene& scene, const py::object& start, const py::object& goal) {
   plan::Scene result = scene;
+  if (scene.turns_freely) {
+    const auto take_pose = [&](const py::object& end, std::size_t which, std::optional<Rational3>& position) {
+      if (end.is_none()) return;
+      const plan::RigidPose pose = pose_of(end);
+      position = pose.position;
+      (*result.quaternions)[which] = pose.quaternion;
+    };
+    take_pose(start, 0, result.start);
+    take_pose(goal, 1, result.goal);
+    return result;
+  }
   const auto take = [&](const py::object& end, const char* what, std::optional<Rational3>& position,
                         Rational* degrees) {
     if (end.is_none()) return;
@@ -170,12 +209,6 @@ py::tuple widest(const plan::Scene& scene, bool box, py::handle precision, std::
   return py::make_tuple(bound(found.first.low), bound(found.first.high), found.first.undecided, found.second);
 }
 
-py::tuple told(const plan::RigidPose& pose) {
-  py::list quaternion;
-  for (const Rational& x : pose.quaternion) quaternion.append(to_fraction(x));
-  return py::make_tuple(from_triple(pose.position), py::tuple(quaternion));
-}
-
 // The number of a motion, and the parameter and the pose at which it collides.
 py::object collision_of(const plan::CertifiedPath& path) {
   if (!path.blocked) return py::none();
@@ -196,13 +229,7 @@ py::object read_poses(const std::string& path) {
 std::vector<plan::RigidPose> poses_of(const py::sequence& path) {
   std::vector<plan::RigidPose> poses;
   for (const py::handle item : path) {
-    const auto pair = item.cast<py::sequence>();
-    if (pair.size() != 2) throw InputError("a pose is a position and a quaternion");
-    const py::sequence quaternion = pair[1];
-    if (quaternion.size() != 4) throw InputError("a quaternion has four numbers: w, x, y, z");
-    plan::RigidPose& pose = poses.emplace_back();
-    pose.position = to_triple(pair[0], "a position");
-    for (std::size_t k = 0; k < 4; ++k) pose.quaternion[k] = to_rational(quaternion[k]);
+    poses.push_back(pose_of(item));
   }
   if (poses.empty()) throw InputError("a path needs a pose");
   return poses;
@@ -398,8 +425,9 @@ void define_module(py::module_& m) {
       .def("certify", &certify)
       .def("prove_path", &prove_path)
       .def("complaint", &complaint_about)
-      .def_property_readonly("start", [](const plan::Scene& s) { return optional_triple(s.start); })
-      .def_property_readonly("goal", [](const plan::Scene& s) { return optional_triple(s.goal); });
+      .def_property_readonly("turns_freely", [](const plan::Scene& s) { return s.turns_freely; })
+      .def_property_readonly("start", [](const plan::Scene& s) { return end_of(s, 0); })
+      .def_property_readonly("goal", [](const plan::Scene& s) { return end_of(s, 1); });
   m.def("read", [](const std::string& path, const std::string& crossings, double close) {
     MeshOptions meshes = mesh_options(crossings, close);
     return call(kSmallCall, [=](const Monitor& monitor) mutable {

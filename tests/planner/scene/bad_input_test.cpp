@@ -39,6 +39,10 @@ TEST_CASE("bad scenes") {
   const std::string robot = R"J({"robot": "box(0,0,0, 1,1,1)", )J";
   const std::string ends = R"J("start": [0, 0, 5], "goal": [1, 1, 5]})J";
   const std::string free = R"J("obstacles": [], )J";
+  const auto pose = [](const std::string& quaternion) {
+    return R"J("start": {"position": [0, 0, 5], "quaternion": )J" + quaternion + "}";
+  };
+  const std::string turns = R"J(, "rotation": "SO(3)"})J";
   const std::vector<Bad> scenes{
       {"", "the file is empty"},
       {"no scene", "not a JSON file"},
@@ -87,6 +91,12 @@ TEST_CASE("bad scenes") {
       {robot + free + R"J("start": [0, 0, 1e999], "goal": [1, 1, 1]})J", "the number 1e999 is too large for JSON"},
       {robot + free + R"J("start": [0, 0, {"$number": 5}], "goal": [1, 1, 1]})J", "unknown key '$number'"},
       {robot + free + R"J("start": [0, 0, null], "goal": [1, 1, 1]})J", "start: expected a number"},
+      {robot + free + R"J("rotation": "SO(2)"})J", "all rotations, or a range"},
+      {robot + free + R"J("rotation": "SO(3)", )J" + ends, "since the robot turns freely"},
+      {robot + free + pose("[1, 0, 0, 0]") + "}", "a pose with a quaternion needs"},
+      {robot + free + pose("[0, 0, 0, 0]") + turns, "must not be zero"},
+      {robot + free + pose("[0, 0, 1]") + turns, "a list of 4"},
+      {robot + free + R"J("goal": {"position": [0, 0, 5]})J" + turns, "quaternion"},
   };
   static_cast<void>(folder.write("bad.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"));
   static_cast<void>(folder.write("bad.dae", "<COLLADA>"));

@@ -320,6 +320,17 @@ std::string proof_of_barrier(const Polyhedron& /*set*/, const std::string& /*tex
   {"robot": ["1"], "obstacle": ["0", "1", "0"]}, {"robot": ["1"], "obstacle": ["0", "0", "1"]}]}, {"corners": [3, 1, 0]}]}}})";
 }
 
+std::string proof_of_turning(const Polyhedron& /*set*/, const std::string& /*text*/) {
+  return R"({"claim": {"box": null, "contact": "allow", "obstacles": [[["0", "0", "0"], ["1", "0", "0"], ["0", "1", "0"],
+  ["0", "0", "1"]]], "path": [{"position": ["0", "0", "0"], "quaternion": ["1", "0", "0", "0"]},
+  {"position": ["1", "0", "0"], "quaternion": ["1", "1", "0", "0"]}], "robot": [[["0", "0", "0"], ["1", "0", "0"],
+  ["0", "1", "0"], ["0", "0", "1"]]], "rotations": [["1", "0", "0", "0"], ["1", "1", "0", "0"]], "status": "infeasible"},
+  "nef_proof": 1, "witness": {"cells": {"bounds": [["-1", "-1", "-1"], ["1", "1", "1"]], "charts": [{"at": "1/2", "axis": 3,
+  "halves": [{"side": "start"}, {"at": "0", "axis": 0, "halves": [{"beyond": 2}, {"common": [["0", "0", "0"],
+  ["0", "0", "0"], ["0", "0", "0"], ["0", "0", "0"], ["0", "0", "0"], ["0", "0", "0"], ["0", "0", "0"], ["0", "0", "0"]],
+  "obstacle": 0, "robot": 0}]}]}], "outside": "goal", "reference": ["0", "0", "0"]}}})";
+}
+
 std::string proof_of_parts(const Polyhedron& /*set*/, const std::string& /*text*/) {
   return R"({"claim": {"status": "inseparable", "parts": [
     {"name": "a", "pieces": [[["0", "0", "0"], ["1", "0", "0"], ["0", "1", "0"], ["0", "0", "1"]]]},
@@ -370,6 +381,7 @@ std::vector<Format> other_formats() {
       Format{"path-proof", proof_of_path, read_proof_file},
       Format{"collision-proof", proof_of_collision, read_proof_file},
       Format{"barrier-proof", proof_of_barrier, read_proof_file},
+      Format{"turning-proof", proof_of_turning, read_proof_file},
       Format{"inseparable-proof", proof_of_parts, read_proof_of_parts},
       Format{"hull-scene", hull_scene,
              [](const std::string& text) {

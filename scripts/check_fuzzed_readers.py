@@ -39,6 +39,8 @@ THROUGH = {
     "read_polygons": "read_json_scene, whose rings it reads",
     "read_queries": "parse_exact_json",
     "read_camera_folder": "read_text_scene, a file each",
+    "read_rotations": "parse_proof",
+    "read_pose_cells": "parse_proof",
     "read_transforms": "read_json_scene",
 }
 

@@ -328,6 +328,238 @@ def check_infeasible(claim, witness):
     return f"infeasible: {len(found)} triangles separate start and goal"
 
 
+# That there is no path of a robot that turns: boxes of poses. A box has intervals of three coordinates and of three parameters
+# of a chart of quaternions, origin + sum t_k directions[k], each t_k from -1 to 1.
+
+UNITS = [[int(i == k) for i in range(4)] for k in range(4)]
+
+
+def rotation_form(q):
+    """The rotation matrix of a quaternion times its square, and a row with the square."""
+    w, x, y, z = q
+    return [[w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z], [dot(q, q)]]
+
+
+def whole(rows):
+    """Numbers times a positive integer that makes them integers."""
+    scale = math.lcm(*(x.denominator for row in rows for x in row))
+    return [[int(x * scale) for x in row] for row in rows]
+
+
+class Rotations:
+    """The orientations of a claim as charts: all of them, or arcs from each quaternion of a chain to the next one. A seam
+    says where two charts meet: chart, axis of the box and end of it, the same beyond, a sign, and pairs of other axes."""
+
+    def __init__(self, value):
+        self.chain = [] if value == "all" else [numbers(q, 4) for q in items(value)]
+        if value == "all":
+            self.parameters = [[e for e in range(4) if e != c] for c in range(4)]
+            self.charts = [(UNITS[c], [UNITS[e] for e in self.parameters[c]]) for c in range(4)]
+            self.seams = [self.seam(c, e, end) for c in range(4) for e in range(c + 1, 4) for end in (1, -1)]
+            return
+        pairs = list(zip(self.chain, self.chain[1:]))
+        require(pairs and all(dot(p, q) > 0 for p, q in pairs), "neighbours in a chain are at least a half turn apart")
+        self.charts = [(between(p, q, Fraction(1, 2)), [[x / 2 for x in map(Fraction, minus(q, p))]]) for p, q in pairs]
+        self.seams = [(i, 3, 1, i + 1, 3, -1, 1, []) for i in range(len(pairs) - 1)]
+        if self.same(self.chain[0], self.chain[-1]):
+            self.seams.append((len(pairs) - 1, 3, 1, 0, 3, -1, 1, []))
+
+    def seam(self, c, e, end):
+        """Quaternions with components c = 1 and e = end; times the end, e = 1 and c = end."""
+        def axis(chart, component):
+            return 3 + self.parameters[chart].index(component)
+        others = [(axis(c, f), axis(e, f)) for f in range(4) if f not in (c, e)]
+        return c, axis(c, e), end, e, axis(e, c), end, end, others
+
+    @staticmethod
+    def same(p, q):
+        return all(p[i] * q[j] == p[j] * q[i] for i in range(4) for j in range(i))
+
+    def locate(self, q):
+        """A chart, and the parameters of a quaternion in it."""
+        if not self.chain:
+            chart = max(range(4), key=lambda c: abs(q[c]))
+            return chart, [Fraction(q[e]) / q[chart] for e in self.parameters[chart]]
+        place = next((i for i, p in enumerate(self.chain) if self.same(p, q)), None)
+        require(place is not None, "the quaternion of a pose is not in the chain")
+        return (place, [-1]) if place < len(self.charts) else (place - 1, [1])
+
+    def mixed(self, chart, low, high):
+        """Every rotation of a box is a mixture of these matrices (the Bernstein coefficients of the quadratic form, divided
+        by those of the square): at the ends and in the middle of each parameter, less the form of half of the edge for
+        each middle. Each is four rows of integers: three of the matrix, and its positive divisor."""
+        origin, directions = self.charts[chart]
+        result = []
+        for index in range(3 ** len(directions)):
+            ends = [index // 3 ** k % 3 for k in range(len(directions))]
+            at = [Fraction((2 - end) * low[k] + end * high[k]) / 2 for k, end in enumerate(ends)]
+            rows = rotation_form([x + sum(t * d[i] for t, d in zip(at, directions)) for i, x in enumerate(origin)])
+            for k, end in enumerate(ends):
+                if end == 1:
+                    edge = rotation_form([x * Fraction(high[k] - low[k]) / 2 for x in directions[k]])
+                    rows = [minus(row, less) for row, less in zip(rows, edge)]
+            require(rows[3][0] > 0, "a blocked box has too many orientations")
+            result.append(whole(rows))
+        return result
+
+
+def faces(piece):
+    """The half-spaces n x <= c of a solid piece, found by trying all planes through three vertices."""
+    require(not is_flat(piece), "a flat piece blocks nothing")
+    scale = math.lcm(*(x.denominator for vertex in piece for x in vertex))
+    vertices = [[int(x * scale) for x in vertex] for vertex in piece]
+    found = {}
+    for i, a in enumerate(vertices):
+        for j in range(i):
+            for k in range(j):
+                normal = cross(minus(vertices[j], a), minus(vertices[k], a))
+                heights = [dot(normal, minus(v, a)) for v in vertices]
+                if any(normal) and (max(heights) == 0 or min(heights) == 0):
+                    length = math.gcd(*normal) * (1 if max(heights) == 0 else -1)
+                    normal = [x // length for x in normal]
+                    found[tuple(normal)] = Fraction(dot(normal, a), scale)
+    return list(found.items())
+
+
+class PoseBoxes:
+    """The boxes of a witness: checks each, and that no box on the side of the start has a facet in common with one on that of
+    the goal."""
+
+    def __init__(self, claim, rotations, cells):
+        reference, bounds, outside, charts = fields(cells, "reference", "bounds", "outside", "charts")
+        self.claim, self.rotations, self.reference = claim, rotations, numbers(reference, 3)
+        self.bounds = [numbers(corner, 3) for corner in items(bounds, 2)]
+        require(all(a < b for a, b in zip(*self.bounds)), "the bounds are empty")
+        if claim.box is not None:
+            rooms = minus(claim.box[0], self.bounds[0]) + minus(self.bounds[1], claim.box[1])
+            require(outside is None and all(room >= 0 and room ** 2 >= dot(self.reference, self.reference) for room in rooms),
+                    "the bounds are too narrow for the reference point")
+        else:
+            require(outside in ("start", "goal"), "it is not said on which side the outside of the bounds is")
+        self.outside, self.leaves, self.faces, self.normals = outside, 0, {}, {}
+        self.trees = [self.tree(cell, chart, self.bounds[0] + [-1] * 3, self.bounds[1] + [1] * 3)
+                      for chart, cell in enumerate(items(charts, len(rotations.charts)))]
+
+    def tree(self, cell, chart, low, high):
+        """A box as (low, high, the sides of the boxes in it, its halves)."""
+        if isinstance(cell, dict) and "halves" in cell:
+            axis, at, halves = fields(cell, "axis", "at", "halves")
+            index(axis, 3 + len(self.rotations.charts[0][1]))
+            at = number(at)
+            require(low[axis] < at < high[axis], "a box is cut outside of it")
+            below, above = items(halves, 2)
+            middle = [[at if k == axis else x for k, x in enumerate(end)] for end in (high, low)]
+            halves = [self.tree(below, chart, low, middle[0]), self.tree(above, chart, middle[1], high)]
+            self.require_apart(*halves, lambda a, b: self.facet_along(axis, a, b))
+            return low, high, halves[0][2] | halves[1][2], halves
+        self.leaves += 1
+        if isinstance(cell, dict) and "side" in cell:
+            side = fields(cell, "side")[0]
+            require(side in ("start", "goal"), "a box is on no side")
+            at_bounds = any(low[k] == self.bounds[0][k] or high[k] == self.bounds[1][k] for k in range(3))
+            require(self.outside in (None, side) or not at_bounds, "a box at the bounds is on another side than what is beyond")
+            return low, high, {side}, []
+        if isinstance(cell, dict) and "beyond" in cell:
+            self.check_beyond(chart, low, high, index(fields(cell, "beyond")[0], 6))
+        else:
+            self.check_blocked(chart, low, high, *fields(cell, "robot", "obstacle", "common"))
+        return low, high, set(), []
+
+    def faces_of(self, kind, i):
+        if (kind, i) not in self.faces:
+            piece = self.claim.robot[i] if kind == "robot" else self.claim.obstacles[i]
+            self.faces[kind, i] = faces([minus(v, self.reference) for v in piece] if kind == "robot" else piece)
+        return self.faces[kind, i]
+
+    def inner_piece(self, chart, low, high, i):
+        """Half-spaces n x < c of integers, as (*n, c), whose points are inside the piece at all orientations of the box."""
+        key = chart, *low[3:], *high[3:], i
+        if key not in self.normals:
+            mixed = self.rotations.mixed(chart, low[3:], high[3:])
+            self.normals[key] = [(*(dot(row, normal) * c.denominator for row in m[:3]), c.numerator * m[3][0])
+                                 for normal, c in self.faces_of("robot", i) for m in mixed]
+        return self.normals[key]
+
+    def check_blocked(self, chart, low, high, i, j, common):
+        """Each corner of the box of positions has a point of the obstacle that is inside the inner piece there. Both are
+        convex, so each position has one."""
+        index(i, len(self.claim.robot))
+        obstacle = self.faces_of("obstacle", index(j, len(self.claim.obstacles)))
+        inner = self.inner_piece(chart, low, high, i)
+        for corner, point in enumerate(items(common, 8)):
+            point = numbers(point, 3)
+            require(all(dot(n, point) <= c for n, c in obstacle), "a point of a blocked box is not in the obstacle")
+            seen = minus(point, [(high if corner >> k & 1 else low)[k] for k in range(3)])
+            scale = math.lcm(*(x.denominator for x in seen))
+            x, y, z = (int(x * scale) for x in seen)
+            require(all(a * x + b * y + c * z < most * scale for a, b, c, most in inner),
+                    "a point of a blocked box is not inside the robot")
+
+    def check_beyond(self, chart, low, high, side):
+        """The robot's origin, R(q) reference away from the positions of the box, is beyond a side of the claim's box."""
+        require(self.claim.box is not None, "there is no box to be beyond")
+        upper, k = divmod(side, 3)
+        for m in self.rotations.mixed(chart, low[3:], high[3:]):
+            away = Fraction(dot(m[k], self.reference)) / m[3][0]
+            require(low[k] - away > self.claim.box[1][k] if upper else high[k] - away < self.claim.box[0][k],
+                    "a box is not beyond a side of the claim's box")
+
+    @staticmethod
+    def facet_along(axis, a, b):
+        """Whether the upper facet of one box has an inner point in common with the lower one of another."""
+        return a[1][axis] == b[0][axis] and all(a[0][k] < b[1][k] and b[0][k] < a[1][k] for k in range(6) if k != axis)
+
+    @staticmethod
+    def facet_at(seam, a, b):
+        """The same of boxes of two charts."""
+        _, here, end, _, there, other_end, sign, others = seam
+        if a[(1 + end) // 2][here] != end or b[(1 + other_end) // 2][there] != other_end:
+            return False
+        spans = [(a[0][k], a[1][k], k) for k in range(3)]
+        spans += [(*sorted((sign * a[0][k], sign * a[1][k])), other) for k, other in others]
+        return all(low < b[1][k] and b[0][k] < high for low, high, k in spans)
+
+    def require_apart(self, a, b, have_facet):
+        """No box in a on one side has a facet in common with one in b on the other side."""
+        if len(a[2] | b[2]) < 2 or not a[2] or not b[2] or not have_facet(a, b):
+            return
+        require(a[3] or b[3], "a box on the side of the start has a facet in common with one on that of the goal")
+        for half in a[3] or b[3]:
+            self.require_apart(half, b, have_facet) if a[3] else self.require_apart(a, half, have_facet)
+
+    def has(self, side, pose):
+        """Whether some box on a side contains a pose."""
+        position, q = pose
+        at = placed(mixed_rotation(q, q), self.reference, position)
+        if self.outside is not None and any(x < a or x > b for x, a, b in zip(at, *self.bounds)):
+            return self.outside == side
+        chart, parameters = self.rotations.locate(q)
+        at = at + parameters + [0] * (3 - len(parameters))
+        open_trees = [self.trees[chart]]
+        for low, high, sides, halves in open_trees:
+            if side in sides and all(a <= x <= b for a, x, b in zip(low, at, high)):
+                if not halves:
+                    return True
+                open_trees += halves
+        return False
+
+
+def check_no_rigid_path(claim, witness):
+    """A path that meets no blocked box can be moved off the edges of boxes, so it goes through facets, and stays on its
+    side."""
+    rotations = Rotations(claim["rotations"])
+    claim = PathClaim({key: value for key, value in claim.items() if key != "rotations"})
+    require(len(claim.poses) == 2, "expected start and goal")
+    boxes = PoseBoxes(claim, rotations, fields(witness, "cells")[0])
+    for seam in rotations.seams:
+        boxes.require_apart(boxes.trees[seam[0]], boxes.trees[seam[3]], lambda a, b, seam=seam: boxes.facet_at(seam, a, b))
+    for side, pose in zip(("start", "goal"), claim.poses):
+        require(boxes.has(side, pose), f"the {side} is in no box on its side")
+    return f"infeasible: {boxes.leaves} boxes of poses separate start and goal"
+
+
 # That no set of parts can begin to move: cones of directions in each of which all parts are tied together.
 
 def outer_planes(vectors):
@@ -496,8 +728,12 @@ def of_path(check_witness):
     return lambda claim, witness: check_witness(PathClaim(claim), witness)
 
 
+def check_any_infeasible(claim, witness):
+    return check_no_rigid_path(claim, witness) if "rotations" in claim else of_path(check_infeasible)(claim, witness)
+
+
 CHECKS = {"path": of_path(check_free_path), "blocked": of_path(check_blocked_path),
-          "infeasible": of_path(check_infeasible), "inseparable": check_inseparable, "tight": check_tight}
+          "infeasible": check_any_infeasible, "inseparable": check_inseparable, "tight": check_tight}
 
 
 def check(text, claim_digest=None):

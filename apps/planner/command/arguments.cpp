@@ -249,8 +249,10 @@ void declare(CLI::App& app, Arguments& a) {
       ->check(CLI::Range(0U, 300U));
   app.add_flag("--clearance", a.path.clearance, "Prefer way-points inside volumes to way-points in contact");
   app.add_flag("--se3", a.se3, "Write path matrices with seven columns x y z qx qy qz qw");
-  app.add_option("--max-cells", a.max_cells,
-                 "For a robot that turns: use at most this many cells of angles, or slices if it turns freely");
+  app.add_option(
+      "--max-cells", a.max_cells,
+      "For a robot that turns: use at most this many cells of angles, slices if it turns freely, or boxes of "
+      "poses in a proof");
   app.add_option(
          "--proof", a.proof,
          "Write a proof (.proof) that the path is free, that it collides, or that there is none; with --tight, that "

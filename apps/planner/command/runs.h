@@ -77,6 +77,14 @@ int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& wi
 /// Nothing if the file is no .proof file.
 std::optional<int> run_check_proof(const Arguments& a, const Scene& scene);
 
+/// A scene whose robot turns freely or about an axis: looks for a proof that there is no path (prove_no_rigid_path)
+/// and, if there is one, prints that, writes it if --proof asks for it, and returns 1. Otherwise nothing is printed.
+std::optional<int> run_no_path(const Arguments& a, const Scene& scene);
+
+/// Writes the proof of an answer about a robot that turns about an axis, if --proof asks for it: of its path, or that
+/// there is none. If there is no such proof, a note says so.
+void write_turning_proof(const Arguments& a, const Scene& scene, const TurningAnswer& answer);
+
 /// --widest and --widest-box: the robot of the scene becomes the widest that is known to pass (the smallest that was
 /// tried if none is). Returns what to report: growth, low, high, undecided.
 nlohmann::json make_widest(const Arguments& a, Scene& scene);

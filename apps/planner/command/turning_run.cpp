@@ -186,10 +186,6 @@ std::vector<view::Layer> turning_layers(const TurningAnswer& answer, const Scene
 }
 
 int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& widest) {
-  if (a.app->count("--proof") > 0) {
-    throw InputError(
-        "--proof: a scene with a rotation has its proof in the report (-o FILE.json), if it is infeasible");
-  }
   exclude(a, "a scene with a rotation",
           {"--tight", "--path", "--queries", "--benchmark", "--min-dimension", "--clearance", "--raw", "--quick",
            "--prefer", "--se3"});
@@ -209,6 +205,7 @@ int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& wi
     return invalid ? *invalid : run_turning_ompl(scene, a.ompl, a.time.value_or(kOmplSeconds));
   };
   const TurningAnswer answer = asked();
+  write_turning_proof(a, scene, answer);
   std::vector<double> times;
   if (!answer.path.empty() && a.limits.speed > 0)
     times = times_of(lengths_of(answer.path, scene.robot, question.axis), a.limits);

@@ -13,6 +13,7 @@
 #include <map>
 #include <utility>
 
+#include "apps/planner/orientation/no_rigid_path.h"
 #include "apps/planner/proofs/arc_time.h"
 #include "apps/planner/proofs/check_parts.h"
 #include "apps/planner/proofs/path_proof.h"
@@ -85,7 +86,7 @@ class PathCheck {
       case Status::kTight:
         return check_tight();
       default:
-        return complaint_about_barrier(proof_);
+        return claim_.rotations ? complaint_about_cells(proof_) : complaint_about_barrier(proof_);
     }
   }
 
@@ -107,7 +108,11 @@ class PathCheck {
       return "the proof of a collision needs either a collision or a pose outside the box, and other proofs have "
              "neither";
     }
-    if (proof_.barrier.has_value() != (claim_.status == Status::kInfeasible)) {
+    if (claim_.rotations && claim_.status != Status::kInfeasible) return "only a claim of no path names rotations";
+    if (proof_.cells.has_value() != claim_.rotations.has_value()) {
+      return "the proof that there is no path of a robot that turns needs boxes of poses, and other proofs have none";
+    }
+    if (proof_.barrier.has_value() != (claim_.status == Status::kInfeasible && !claim_.rotations)) {
       return "the proof that there is no path needs a barrier, and other proofs have none";
     }
     const std::size_t places = claim_.status == Status::kTight ? claim_.path.size() : 0;
@@ -275,6 +280,24 @@ Complaint compare(const ProofPieces& pieces, const std::vector<Polyhedron>& sets
   return std::nullopt;
 }
 
+// Whether a claim that there is no path is about the rotations of the scene, and, if it has some, about its start and
+// goal.
+Complaint compare_rotations(const PathProof::Claim& claim, const Scene& scene) {
+  if (claim.rotations.has_value() == scene.only_translates()) {
+    return claim.rotations ? "the robot of the scene does not turn" : "the robot of the scene may turn";
+  }
+  if (!claim.rotations) return std::nullopt;
+  const RotationClaim meant = rotation_claim_of(scene);
+  if (*claim.rotations != meant.chain) return "the robot of the scene has other rotations";
+  const auto same = [](const RigidPose& a, const RigidPose& b) {
+    return a.position == b.position && a.quaternion == b.quaternion;
+  };
+  if (claim.path.size() != 2 || !same(claim.path.front(), meant.start) || !same(claim.path.back(), meant.goal)) {
+    return "the scene has another start or goal";
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Complaint complaint_about(const PathProof& proof) { return PathCheck(proof).run(); }
@@ -285,7 +308,12 @@ Complaint complaint_about(const PathProof::Claim& claim, const Scene& scene, con
   const bool turned = std::any_of(claim.path.begin(), claim.path.end(), [](const RigidPose& pose) {
     return pose.quaternion[1] != 0 || pose.quaternion[2] != 0 || pose.quaternion[3] != 0;
   });
-  const Scene meant = turned ? with_robot_as_in_its_file(scene, monitor) : scene;
+  if (claim.status == Status::kInfeasible) {
+    if (Complaint complaint = compare_rotations(claim, scene)) return complaint;
+  }
+  // A robot that turns about one axis is meant as it is in the scene.
+  const bool as_in_file = turned && !(claim.rotations && scene.rotation);
+  const Scene meant = as_in_file ? with_robot_as_in_its_file(scene, monitor) : scene;
   if (Complaint complaint = compare(claim.robot, {closure(meant.robot, monitor)}, "robot", monitor)) return complaint;
   std::vector<Polyhedron> obstacles;
   for (const Polyhedron& obstacle : meant.obstacles) {

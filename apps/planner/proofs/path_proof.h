@@ -42,7 +42,8 @@ struct PathProof {
     enum class Status : std::uint8_t {
       kFree,        ///< no pose of the path collides
       kBlocked,     ///< one pose of the path collides
-      kInfeasible,  ///< the path is two poses, not turned, and every path of translations between them collides
+      kInfeasible,  ///< the path is two poses, and every path between them collides: of translations of the robot, not
+                    ///< turned, or of translations and the rotations of `rotations`
       kTight        ///< the robot, not turned, collides at no pose of the path; all positions near to one at which it
                     ///< collides neither are in the plane, on the line or at the point through it along `along`
     };
@@ -54,6 +55,9 @@ struct PathProof {
     std::vector<RigidPose> path;  ///< a path of one pose stays there
     /// kTight: for each pose two vectors, one or none, linearly independent.
     std::vector<std::vector<Rational3>> along;
+    /// kInfeasible: the robot may turn; any way, if there are no quaternions, or along the arcs from each quaternion to
+    /// the next one (Orientations).
+    std::optional<std::vector<Quaternion>> rotations;
   };
   /// A plane with this normal lies between what a piece of the robot sweeps, on the lower side, and an obstacle's.
   struct Plane {
@@ -96,6 +100,36 @@ struct PathProof {
     std::vector<Triangle> triangles;
   };
 
+  /// A box of poses: of positions of the reference point, in each of which an orientation is a box of parameters of one
+  /// chart (Orientations). It is cut in two, or all of its poses collide, or it is on one side.
+  struct PoseCell {
+    enum class Kind : std::uint8_t {
+      kCut,      ///< in two halves
+      kStart,    ///< on the side of the start
+      kGoal,     ///< on the side of the goal
+      kBlocked,  ///< all poses collide
+      kBeyond    ///< all positions are beyond a side of the claim's box
+    };
+    Kind kind = Kind::kStart;
+    std::uint32_t axis = 0;        ///< kCut: 0 to 2 a coordinate, 3 to 5 a parameter of the chart
+    Rational at;                   ///< kCut: where
+    std::vector<PoseCell> halves;  ///< kCut: the lower and the upper one
+    std::uint32_t robot = 0;       ///< kBlocked: a piece of the robot
+    std::uint32_t obstacle = 0;    ///< kBlocked: one of the obstacles
+    /// kBlocked: for each corner of the box of positions a point of the obstacle that is inside the inner piece (see
+    /// mixed_rotations) there. Bit k of a corner's number: the upper end of coordinate k.
+    std::vector<Rational3> common;
+    std::uint32_t side = 0;  ///< kBeyond: 0 to 2 the lower side of x, y, z, 3 to 5 the upper one
+  };
+  /// Boxes of poses that show that there is no path: no box on the side of the start and one on that of the goal have a
+  /// facet in common.
+  struct PoseCells {
+    Rational3 reference;              ///< the point of the robot whose positions the boxes have
+    std::array<Rational3, 2> bounds;  ///< of all boxes; they enclose all such positions if the claim has a box
+    bool outside_at_start = false;    ///< what is beyond the bounds is on the side of the start, else of the goal
+    std::vector<PoseCell> charts;     ///< a box for each chart
+  };
+
   /// Why a position is tight. Directions are cut into cones; in all directions of a cone but those along the passage
   /// the robot collides at once, by one contact.
   struct Tight {
@@ -124,7 +158,8 @@ struct PathProof {
   std::vector<std::vector<Part>> motions;  ///< of a free path: each cut into parts
   std::optional<Collision> collision;      ///< of a path that collides
   std::optional<std::size_t> outside;      ///< of a path that collides: the number of a pose outside the box
-  std::optional<Barrier> barrier;          ///< if there is no path
+  std::optional<Barrier> barrier;          ///< if there is no path of translations
+  std::optional<PoseCells> cells;          ///< if there is no path of a robot that turns
   std::vector<Tight> tight;                ///< of each pose, if these are tight
 };
 

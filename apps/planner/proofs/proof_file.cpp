@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "apps/planner/proofs/pose_cells_file.h"
 #include "apps/planner/proofs/proof_reader.h"
 #include "apps/program/exact_json.h"
 
@@ -32,6 +33,7 @@ json claim_json(const PathProof::Claim& claim) {
               {"obstacles", pieces_json(claim.obstacles)},
               {"path", std::move(path)}};
   if (claim.status == Status::kTight) result["along"] = pieces_json(claim.along);
+  if (claim.rotations) result["rotations"] = rotations_json(*claim.rotations);
   return result;
 }
 
@@ -112,7 +114,7 @@ RigidPose read_pose(const JsonReader& pose) {
 }
 
 PathProof::Claim read_claim(const JsonReader& claim) {
-  claim.require_keys({"status", "contact", "box", "robot", "obstacles", "path"}, {"along"});
+  claim.require_keys({"status", "contact", "box", "robot", "obstacles", "path"}, {"along", "rotations"});
   PathProof::Claim result;
   result.status = static_cast<Status>(claim["status"].word(kStatusNames));
   result.contact = static_cast<ContactRule>(claim["contact"].word(std::array{"allow", "forbid"}));
@@ -124,6 +126,10 @@ PathProof::Claim read_claim(const JsonReader& claim) {
     claim.fail("only a claim of tight passages has \"along\"");
   if (claim.has("along")) {
     result.along = claim["along"].list([](const JsonReader& vectors) { return vectors.list(proof_point); });
+  }
+  if (claim.has("rotations")) {
+    if (result.status != Status::kInfeasible) claim.fail("only a claim of no path has \"rotations\"");
+    result.rotations = read_rotations(claim["rotations"]);
   }
   return result;
 }
@@ -217,6 +223,7 @@ std::string proof_text(const PathProof& proof) {
   if (proof.collision) witness["collision"] = collision_json(*proof.collision);
   if (proof.outside) witness["outside"] = *proof.outside;
   if (proof.barrier) witness["barrier"] = barrier_json(*proof.barrier);
+  if (proof.cells) witness["cells"] = pose_cells_json(*proof.cells, proof.claim.box.has_value());
   if (proof.claim.status == Status::kTight) {
     witness["places"] = json::array();
     for (const PathProof::Tight& tight : proof.tight) witness["places"].push_back(tight_json(tight));
@@ -236,6 +243,9 @@ PathProof parse_proof(const std::string& text, const std::string& name) {
   if (proof.claim.status == Status::kFree) {
     witness.require_keys({"motions"});
     proof.motions = witness["motions"].list([](const JsonReader& motion) { return motion.list(read_part); });
+  } else if (proof.claim.rotations) {
+    witness.require_keys({"cells"});
+    proof.cells = read_pose_cells(witness["cells"], proof.claim.box.has_value());
   } else if (proof.claim.status == Status::kInfeasible) {
     witness.require_keys({"barrier"});
     proof.barrier = read_barrier(witness["barrier"]);

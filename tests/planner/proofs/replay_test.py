@@ -39,6 +39,13 @@ BOXED = {"parts": {"box": "box(0,0,0, 3,3,3) - box(1,1,1, 2,2,2)", "cube": "box(
 WEDGED = {"parts": {"mould": "box(-1,-1,-1, 4,4,4) - hull(0,0,0, 3,0,0, 0,3,0, 0,0,3)",
                     "left": "hull(0,0,0, 1,0,0, 0,3,0, 0,0,3)", "right": "hull(1,0,0, 3,0,0, 0,3,0, 0,0,3)"}}
 
+WINDOW = {"robot": "box(-1/2,-1/2,-1/2, 1/2,1/2,1/2)", "obstacles": ["box(-1/2,-4,-4, 1/2,4,4) - box(-1,-1/16,-1/16, 1,1/16,1/16)"],
+          "box": [[-3, -3, -3], [3, 3, 3]], "start": {"position": [-2, 0, 0], "quaternion": [1, 0, 0, 0]},
+          "goal": {"position": [2, 0, 0], "quaternion": [1, 2, 0, 0]}, "rotation": "SO(3)"}
+CORNER = {"robot": "box(-3,-1/2,0, 3,1/2,1)", "rotation": {"range": [0, 90]},
+          "obstacles": ["box(-20,-20,-1, 20,20,2) - interior(box(-20,-2,-2, 0,0,3)) - interior(box(-2,-2,-2, 0,20,3))"],
+          "box": [[-15, -15, 0], [15, 15, 0]], "start": [-12, -1, 0, 0], "goal": [-1, 12, 0, 90]}
+
 # A name, a scene or an assembly, a path (or none: it is looked for), what is proved.
 CASES = [
     ("turning", SLOT, "0 0 0 0 0 1 1\n0 1 0 0 0 0 1\n0 9 0 0 0 0 1\n0 12 0 1 0 2 2\n", "path: all 3 motions are free"),
@@ -47,19 +54,21 @@ CASES = [
     ("sheet", SHEET, "0 0 0 0 0 1 3\n0 5 0 0 0 0 1\n", "blocked: motion 0"),
     ("outside", SHEET, "0 0 0 0 0 1 3\n0 0 9 0 0 0 1\n", "blocked: pose 1 is outside"),
     ("narrower", NARROW, None, "infeasible: "),
+    ("window", WINDOW, None, "infeasible: "),
+    ("corner", CORNER, None, "infeasible: "),
     ("tight", TIGHT, None, "tight: 6 passages"),
     ("boxed", BOXED, None, "inseparable: no set of 2 parts"),
     ("wedged", WEDGED, None, "inseparable: no set of 3 parts"),
     ("apart", dict(SHEET, contact="forbid"), "0 0 0 0 0 1 3\n2 1 1 1 2 -1 3\n", "path: all 1 motions are free"),
 ]
-TAMPERED = {"tight": 600, "narrower": 600, "boxed": 150, "wedged": 150}  # proofs whose checks take a twentieth of a second and more
+TAMPERED = {"tight": 600, "narrower": 600, "boxed": 150, "wedged": 150, "window": 60, "corner": 400}  # proofs whose checks take a twentieth of a second and more
 TAMPERED_OTHERS = 1700  # of each other one
 
 # What may change in a proof that still holds: it has other numbers that show the same.
 IRRELEVANT = re.compile(r"/witness/(motions/\d+(/\d+(/planes(/\d+(/(normal|robot|obstacle)(/\d)?)?)?|/until)?)?|collision/times(/\d)?|barrier/points(/\d+(/\d)?)?|"
                         r"barrier/triangles(/\d+(/corners(/\d)?|/robot|/obstacle)?)?|"
                         r"places(/\d+(/(planes(/\d+(/(normal|robot|obstacle)(/\d)?)?)?|contacts(/\d+(/(robot|obstacle))?)?|octants(/.*)?))?)?|"
-                        r"contacts(/\d+(/(first|second)(/\d)?)?)?|octants(/.*)?)$")
+                        r"contacts(/\d+(/(first|second)(/\d)?)?)?|octants(/.*)?|cells(/.*)?)$")
 
 
 def planner(*arguments):

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A pair overlaps at a position x if a point y is in the obstacle's half-spaces o y <= d, and y - x in those of the
+// inner piece, m (y - x) <= c. How deep it does is the largest s with m (y - x) + |m| s <= c and o y + s / 10 <= d, so
+// that y may be rounded to short numbers.
+#include "apps/planner/orientation/blocking_pairs.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/planner/free_space/hulls_apart.h"
+#include "nef/construct/convex_hull.h"
+#include "nef/geometry/vectors.h"
+
+namespace nef::planner {
+namespace {
+
+constexpr double kInObstacle = 0.1;  // the part of the depth by which a common point is inside the obstacle
+
+RoughSolid rough_solid(const std::vector<Rational3>& vertices) {
+  RoughSolid result;
+  const Hull hull = hull_of(vertices);
+  if (hull.dimension < 3) return result;
+  for (const HalfSpace& face : half_spaces_of(hull.mesh)) {
+    const Vector3d normal = to_vector(face.normal);
+    result.normals.push_back(normal / normal.norm());
+    result.offsets.push_back(nearest_double(face.offset) / normal.norm());
+  }
+  result.low = result.high = to_vector(vertices.front());
+  for (const Rational3& v : vertices) {
+    const Vector3d point = to_vector(v);
+    result.low = result.low.cwiseMin(point);
+    result.high = result.high.cwiseMax(point);
+    result.reach = std::max(result.reach, point.norm());
+  }
+  return result;
+}
+
+using Matrices = std::vector<ScaledMatrix<double>>;
+
+Vector3d turned_vector(const ScaledMatrix<double>& m, const Vector3d& v) {
+  Vector3d result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    result[static_cast<Eigen::Index>(i)] = (m.rows[i][0] * v[0] + m.rows[i][1] * v[1] + m.rows[i][2] * v[2]) / m.scale;
+  }
+  return result;
+}
+
+InnerPiece inner_piece(const RoughSolid& piece, const Matrices& matrices) {
+  InnerPiece result;
+  for (std::size_t f = 0; f < piece.normals.size(); ++f) {
+    for (const ScaledMatrix<double>& m : matrices) {
+      result.normals.push_back(turned_vector(m, piece.normals[f]));
+      result.lengths.push_back(result.normals.back().norm());
+      result.offsets.push_back(piece.offsets[f]);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+BlockingPairs::BlockingPairs(const PathProof::Claim& claim, const Orientations& orientations,
+                             const Rational3& reference)
+    : orientations_(orientations), reference_(to_vector(reference)) {
+  for (const std::vector<Rational3>& piece : claim.robot) {
+    std::vector<Rational3> shifted;
+    for (const Rational3& v : piece) shifted.push_back(minus(v, reference));
+    robot_.push_back(rough_solid(shifted));
+    reach_ = std::max(reach_, robot_.back().reach);
+  }
+  if (claim.box) box_ = {to_vector((*claim.box)[0]), to_vector((*claim.box)[1])};
+  scale_ = reach_;
+  for (const std::vector<Rational3>& piece : claim.obstacles) {
+    obstacles_.push_back(rough_solid(piece));
+    scale_ = std::max(scale_, obstacles_.back().reach);
+  }
+}
+
+std::vector<BlockingPairs::Pair> BlockingPairs::all() const {
+  std::vector<Pair> result;
+  for (std::uint32_t i = 0; i < robot_.size(); ++i) {
+    for (std::uint32_t j = 0; j < obstacles_.size(); ++j) {
+      if (!robot_[i].normals.empty() && !obstacles_[j].normals.empty()) result.push_back({i, j});
+    }
+  }
+  return result;
+}
+
+TurnedRobot BlockingPairs::turned(const OrientationBox<double>& box) const {
+  const Orientations::Chart& exact = orientations_.charts()[box.chart];
+  const auto rounded = [](const Quaternion& q) {
+    return std::array{nearest_double(q[0]), nearest_double(q[1]), nearest_double(q[2]), nearest_double(q[3])};
+  };
+  std::vector<std::array<double, 4>> directions;
+  for (const Quaternion& direction : exact.directions) directions.push_back(rounded(direction));
+  Matrices mixed = mixed_rotations(rounded(exact.origin), directions, box.low, box.high);
+  if (box.low == box.high && !mixed.empty()) mixed.resize(1);
+  TurnedRobot result;
+  for (const RoughSolid& piece : robot_) result.pieces.push_back(inner_piece(piece, mixed));
+  for (const ScaledMatrix<double>& m : mixed) result.origins.push_back(turned_vector(m, -reference_));
+  return result;
+}
+
+bool BlockingPairs::may_meet(const Pair& pair, const PositionBox& box) const {
+  const RoughSolid& obstacle = obstacles_[pair[1]];
+  double square = 0;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const double gap = std::max({obstacle.low[k] - box.high[k], box.low[k] - obstacle.high[k], 0.0});
+    square += gap * gap;
+  }
+  const double reach = robot_[pair[0]].reach;
+  return square < reach * reach;
+}
+
+namespace {
+
+// The largest s for points y as above; the first rows are the inner piece's, whose bounds depend on the position.
+class DepthProgram {
+ public:
+  DepthProgram(const InnerPiece& piece, const RoughSolid& obstacle) : piece_(piece) {
+    for (std::size_t r = 0; r < piece.normals.size(); ++r) {
+      const Vector3d& m = piece.normals[r];
+      program_.add({m[0], m[1], m[2], piece.lengths[r]}, 0);
+    }
+    for (std::size_t r = 0; r < obstacle.normals.size(); ++r) {
+      const Vector3d& o = obstacle.normals[r];
+      program_.add({o[0], o[1], o[2], kInObstacle}, obstacle.offsets[r]);
+    }
+  }
+
+  CommonDepth at(const Vector3d& position, double limit, double least) {
+    if (piece_.normals.empty()) return {};
+    for (std::size_t r = 0; r < piece_.normals.size(); ++r) {
+      program_.set_bound(r, piece_.offsets[r] + piece_.normals[r].dot(position));
+    }
+    const auto found = program_.maximize({0, 0, 0, 1}, limit, least);
+    if (!found) return {};
+    return {{(*found)[0], (*found)[1], (*found)[2]}, found->back()};
+  }
+
+ private:
+  const InnerPiece& piece_;
+  SmallProgram<4> program_;
+};
+
+}  // namespace
+
+CommonDepth BlockingPairs::at(const Pair& pair, const TurnedRobot& robot, const Vector3d& position) const {
+  return DepthProgram(robot.pieces[pair[0]], obstacles_[pair[1]]).at(position, 8 * scale_, resolution());
+}
+
+std::array<CommonDepth, 8> BlockingPairs::at_corners(const Pair& pair, const TurnedRobot& robot,
+                                                     const PositionBox& box) const {
+  DepthProgram program(robot.pieces[pair[0]], obstacles_[pair[1]]);
+  std::array<CommonDepth, 8> result;
+  for (std::size_t i = 0; i < 8; ++i) result[i] = program.at(box.corner(i), 8 * scale_, resolution());
+  return result;
+}
+
+std::pair<double, std::uint32_t> BlockingPairs::beyond(const TurnedRobot& robot, const PositionBox& box) const {
+  std::pair<double, std::uint32_t> best{-1, 0};
+  if (!box_ || robot.origins.empty()) return best;
+  for (std::uint32_t side = 0; side < 6; ++side) {
+    const Eigen::Index k = side % 3;
+    double least = HUGE_VAL;
+    for (const Vector3d& origin : robot.origins) {
+      least =
+          std::min(least, side < 3 ? box_->low[k] - origin[k] - box.high[k] : box.low[k] + origin[k] - box_->high[k]);
+    }
+    best = std::max(best, {least - resolution(), side});
+  }
+  return best;
+}
+
+}  // namespace nef::planner

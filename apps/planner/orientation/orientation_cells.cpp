@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "apps/planner/orientation/orientation_cells.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "nef/base/error.h"
+
+namespace nef::planner {
+namespace {
+
+bool are_proportional(const Quaternion& p, const Quaternion& q) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = i + 1; j < 4; ++j) {
+      if (p[i] * q[j] != p[j] * q[i]) return false;
+    }
+  }
+  return true;
+}
+
+// The component of a quaternion that is a parameter of the chart of component `chart`.
+std::uint32_t component_of(std::uint32_t chart, std::uint32_t parameter) {
+  return parameter < chart ? parameter : parameter + 1;
+}
+
+std::uint32_t parameter_of(std::uint32_t chart, std::uint32_t component) {
+  return component < chart ? component : component - 1;
+}
+
+}  // namespace
+
+Orientations Orientations::all() {
+  Orientations result;
+  for (std::uint32_t c = 0; c < 4; ++c) {
+    Chart chart;
+    chart.origin[c] = 1;
+    for (std::uint32_t k = 0; k < 3; ++k) chart.directions.emplace_back()[component_of(c, k)] = 1;
+    result.charts_.push_back(std::move(chart));
+  }
+  for (std::uint32_t c = 0; c < 4; ++c) {
+    for (std::uint32_t e = c + 1; e < 4; ++e) {
+      for (const int side : {1, -1}) {
+        // q_c = 1 and q_e = side; times the side, q_e = 1 and q_c = side.
+        ChartSeam seam{c, parameter_of(c, e), side, e, parameter_of(e, c), side, side, {}};
+        for (std::uint32_t f = 0; f < 4; ++f) {
+          if (f != c && f != e) seam.others.push_back({parameter_of(c, f), parameter_of(e, f)});
+        }
+        result.seams_.push_back(std::move(seam));
+      }
+    }
+  }
+  return result;
+}
+
+Orientations Orientations::along(std::vector<Quaternion> chain) {
+  if (chain.size() < 2) throw InputError("a chain of orientations needs two quaternions");
+  Orientations result;
+  for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+    if (scalar_product(chain[i], chain[i + 1]) <= 0) {
+      throw InputError("neighbours in a chain of orientations must be less than a half turn apart");
+    }
+    Chart chart;
+    chart.directions.emplace_back();
+    for (std::size_t k = 0; k < 4; ++k) {
+      chart.origin[k] = (chain[i][k] + chain[i + 1][k]) / 2;
+      chart.directions[0][k] = (chain[i + 1][k] - chain[i][k]) / 2;
+    }
+    result.charts_.push_back(std::move(chart));
+    const bool closes = i + 2 == chain.size();
+    if (closes && !are_proportional(chain.front(), chain.back())) continue;
+    const auto next = static_cast<std::uint32_t>(closes ? 0 : i + 1);
+    result.seams_.push_back({static_cast<std::uint32_t>(i), 0, 1, next, 0, -1, 1, {}});
+  }
+  result.chain_ = std::move(chain);
+  return result;
+}
+
+std::optional<OrientationBox<Rational>> Orientations::locate(const Quaternion& q) const {
+  OrientationBox<Rational> result;
+  if (chain_.empty()) {
+    for (std::uint32_t c = 1; c < 4; ++c) {
+      if (abs(q[c]) > abs(q[result.chart])) result.chart = c;
+    }
+    if (q[result.chart] == 0) return std::nullopt;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      result.low[k] = result.high[k] = q[component_of(result.chart, k)] / q[result.chart];
+    }
+    return result;
+  }
+  const auto found =
+      std::find_if(chain_.begin(), chain_.end(), [&](const Quaternion& p) { return are_proportional(p, q); });
+  if (found == chain_.end()) return std::nullopt;
+  const bool last = found + 1 == chain_.end();
+  result.chart = static_cast<std::uint32_t>(found - chain_.begin()) - (last ? 1 : 0);
+  result.low[0] = result.high[0] = last ? 1 : -1;
+  return result;
+}
+
+std::vector<ScaledMatrix<Rational>> mixed_rotations(const Orientations& orientations,
+                                                    const OrientationBox<Rational>& cell) {
+  const Orientations::Chart& chart = orientations.charts()[cell.chart];
+  return mixed_rotations(chart.origin, chart.directions, cell.low, cell.high);
+}
+
+}  // namespace nef::planner

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// 1. The bounds enclose all positions of the reference point: if the claim has a box, by what that point may be away
+//    from the origin. Without a box, all boxes at the bounds are on the side of what is beyond.
+// 2. A box is blocked: each corner has a point of the obstacle that is inside the inner piece there. Obstacle, inner
+// piece
+//    and box are convex, so all positions of the box have such a point, and the inner piece is in the turned robot.
+// 3. No box on the side of the start has a facet in common with one on that of the goal. A path that meets no blocked
+//    box can be moved off the edges of boxes, so it goes from box to box through facets. So it stays on its side.
+#include <algorithm>
+#include <functional>
+#include <map>
+
+#include "apps/planner/free_space/hulls_apart.h"
+#include "apps/planner/orientation/orientation_cells.h"
+#include "apps/planner/proofs/check_parts.h"
+#include "nef/base/error.h"
+#include "nef/construct/convex_hull.h"
+#include "nef/geometry/integer_vector.h"
+#include "nef/geometry/vectors.h"
+
+namespace nef::planner {
+namespace {
+
+using CellsComplaint = std::optional<std::string>;
+using Kind = PathProof::PoseCell::Kind;
+
+// A box of poses: coordinates of positions, then parameters.
+struct PoseBox {
+  std::uint32_t chart = 0;
+  std::array<Rational, 6> low, high;
+};
+
+// A box of the tree with what is below it.
+struct BoxNode {
+  PoseBox box;
+  const PathProof::PoseCell* cell = nullptr;
+  bool at_start = false;  // some box below is on the side of the start
+  bool at_goal = false;
+  std::vector<BoxNode> halves;
+};
+
+// Whether two boxes have a facet in common, or an inner part of a facet may lie between boxes inside of them.
+using FacetTest = std::function<bool(const PoseBox&, const PoseBox&)>;
+
+bool overlap(const Rational& a_low, const Rational& a_high, const Rational& b_low, const Rational& b_high) {
+  return a_low < b_high && b_low < a_high;
+}
+
+// Boxes of one chart, the first one below the second one on an axis.
+bool meet_along(std::uint32_t axis, const PoseBox& a, const PoseBox& b) {
+  for (std::uint32_t k = 0; k < 6; ++k) {
+    if (k == axis ? a.high[k] != b.low[k] : !overlap(a.low[k], a.high[k], b.low[k], b.high[k])) return false;
+  }
+  return true;
+}
+
+bool meet_at(const ChartSeam& seam, const PoseBox& a, const PoseBox& b) {
+  if ((seam.side > 0 ? a.high : a.low)[3 + seam.here] != seam.side) return false;
+  if ((seam.other_side > 0 ? b.high : b.low)[3 + seam.there] != seam.other_side) return false;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!overlap(a.low[k], a.high[k], b.low[k], b.high[k])) return false;
+  }
+  return std::all_of(seam.others.begin(), seam.others.end(), [&](const std::array<std::uint32_t, 2>& other) {
+    const Rational one = seam.sign * a.low[3 + other[0]];
+    const Rational end = seam.sign * a.high[3 + other[0]];
+    return overlap(std::min(one, end), std::max(one, end), b.low[3 + other[1]], b.high[3 + other[1]]);
+  });
+}
+
+class CellsCheck {
+ public:
+  explicit CellsCheck(const PathProof& proof) : claim_(proof.claim), cells_(*proof.cells) {}
+
+  CellsComplaint run() {
+    if (claim_.path.size() != 2) return "the path must be two poses, start and goal";
+    try {
+      orientations_.emplace(claim_.rotations->empty() ? Orientations::all() : Orientations::along(*claim_.rotations));
+    } catch (const InputError& error) {
+      return error.what();
+    }
+    if (cells_.charts.size() != orientations_->charts().size()) return "there must be a box for each chart";
+    if (CellsComplaint complaint = check_bounds()) return complaint;
+    for (const std::vector<Rational3>& piece : claim_.robot) {
+      std::vector<Rational3> shifted;
+      for (const Rational3& v : piece) shifted.push_back(minus(v, cells_.reference));
+      robot_.push_back(faces_of(shifted));
+    }
+    for (const std::vector<Rational3>& piece : claim_.obstacles) obstacles_.push_back(faces_of(piece));
+    for (std::uint32_t chart = 0; chart < cells_.charts.size(); ++chart) {
+      BoxNode& root = roots_.emplace_back();
+      root.box.chart = chart;
+      for (std::size_t k = 0; k < 3; ++k) {
+        root.box.low[k] = cells_.bounds[0][k];
+        root.box.high[k] = cells_.bounds[1][k];
+        root.box.low[3 + k] = -1;
+        root.box.high[3 + k] = 1;
+      }
+      root.cell = &cells_.charts[chart];
+      if (CellsComplaint complaint = build(root)) return complaint;
+    }
+    if (!are_sides_apart()) return "a box on the side of the start has a facet in common with one on that of the goal";
+    if (!is_on_side(claim_.path.front(), Kind::kStart)) return "the start is in no box on its side";
+    if (!is_on_side(claim_.path.back(), Kind::kGoal)) return "the goal is in no box on its side";
+    return std::nullopt;
+  }
+
+ private:
+  static std::vector<HalfSpace> faces_of(const std::vector<Rational3>& vertices) {
+    const Hull hull = hull_of(vertices);
+    return hull.dimension < 3 ? std::vector<HalfSpace>{} : half_spaces_of(hull.mesh);
+  }
+
+  [[nodiscard]] CellsComplaint check_bounds() const {
+    const Rational away = dot(cells_.reference, cells_.reference);
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (cells_.bounds[0][k] >= cells_.bounds[1][k]) return "the bounds are empty";
+      if (!claim_.box) continue;
+      for (const Rational& room :
+           {Rational((*claim_.box)[0][k] - cells_.bounds[0][k]), Rational(cells_.bounds[1][k] - (*claim_.box)[1][k])}) {
+        if (room < 0 || room * room < away) return "the bounds are too narrow for the reference point";
+      }
+    }
+    return std::nullopt;
+  }
+
+  CellsComplaint build(BoxNode& node) {
+    const PathProof::PoseCell& cell = *node.cell;
+    node.at_start = cell.kind == Kind::kStart;
+    node.at_goal = cell.kind == Kind::kGoal;
+    if (cell.kind == Kind::kBlocked) return complaint_about_blocked(node.box, cell);
+    if (cell.kind == Kind::kBeyond) return complaint_about_beyond(node.box, cell);
+    if (cell.kind != Kind::kCut) {
+      const bool other_side = cells_.outside_at_start ? node.at_goal : node.at_start;
+      if (!claim_.box && other_side && is_at_bounds(node.box))
+        return "a box at the bounds is not on the side of what is beyond";
+      return std::nullopt;
+    }
+    if (cell.axis > 5 || cell.axis >= 3 + orientations_->dimension() || cell.halves.size() != 2 ||
+        cell.at <= node.box.low[cell.axis] || cell.at >= node.box.high[cell.axis]) {
+      return "a box is cut outside of it";
+    }
+    for (const bool upper : {false, true}) {
+      BoxNode& half = node.halves.emplace_back();
+      half.box = node.box;
+      (upper ? half.box.low : half.box.high)[cell.axis] = cell.at;
+      half.cell = &cell.halves[upper ? 1 : 0];
+      if (CellsComplaint complaint = build(half)) return complaint;
+      node.at_start = node.at_start || half.at_start;
+      node.at_goal = node.at_goal || half.at_goal;
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool is_at_bounds(const PoseBox& box) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (box.low[k] == cells_.bounds[0][k] || box.high[k] == cells_.bounds[1][k]) return true;
+    }
+    return false;
+  }
+
+  [[nodiscard]] std::vector<ScaledMatrix<Rational>> matrices_of(const PoseBox& box) const {
+    return mixed_rotations(*orientations_,
+                           {box.chart, {box.low[3], box.low[4], box.low[5]}, {box.high[3], box.high[4], box.high[5]}});
+  }
+
+  static Rational3 product(const ScaledMatrix<Rational>& m, const Rational3& v) {
+    Rational3 result;
+    for (std::size_t i = 0; i < 3; ++i) result[i] = dot(m.rows[i], v);
+    return result;
+  }
+
+  [[nodiscard]] CellsComplaint complaint_about_blocked(const PoseBox& box, const PathProof::PoseCell& cell) const {
+    if (cell.robot >= robot_.size() || cell.obstacle >= obstacles_.size())
+      return "a blocked box names a piece that does not exist";
+    const std::vector<HalfSpace>& piece = robot_[cell.robot];
+    const std::vector<HalfSpace>& obstacle = obstacles_[cell.obstacle];
+    if (piece.empty() || obstacle.empty()) return "a flat piece blocks nothing";
+    if (cell.common.size() != 8) return "a blocked box has a point for each corner";
+    const std::vector<ScaledMatrix<Rational>> matrices = matrices_of(box);
+    if (matrices.empty()) return "a blocked box has too many orientations";
+    std::array<Scaled, 8> inside;  // each point, seen from its corner
+    for (std::size_t i = 0; i < 8; ++i) {
+      const Rational3& point = cell.common[i];
+      Rational3 corner;
+      for (std::size_t k = 0; k < 3; ++k) corner[k] = ((i >> k) & 1) != 0 ? box.high[k] : box.low[k];
+      inside[i] = scaled(minus(point, corner));
+      const bool is_in = std::all_of(obstacle.begin(), obstacle.end(),
+                                     [&](const HalfSpace& face) { return dot(face.normal, point) <= face.offset; });
+      if (!is_in) return "a point of a blocked box is not in the obstacle";
+    }
+    for (const HalfSpace& face : piece) {
+      for (const ScaledMatrix<Rational>& m : matrices) {
+        const Scaled normal = scaled(product(m, face.normal));
+        const Rational most = face.offset * m.scale * normal.scale;
+        for (const Scaled& point : inside) {
+          if (dot(normal.vector, point.vector) * most.get_den() >= most.get_num() * point.scale) {
+            return "a point of a blocked box is not inside the robot";
+          }
+        }
+      }
+    }
+    return std::nullopt;
+  }
+
+  // An integer vector that is a positive multiple of a rational one: products of those need no common divisors.
+  struct Scaled {
+    Integer3 vector;
+    Integer scale;
+  };
+  static Scaled scaled(const Rational3& v) {
+    const Integer scale = common_denominator(v);
+    return {times(v, scale), scale};
+  }
+
+  // The origin of the robot is at x - R(q) reference.
+  [[nodiscard]] CellsComplaint complaint_about_beyond(const PoseBox& box, const PathProof::PoseCell& cell) const {
+    if (!claim_.box || cell.side > 5) return "there is no such side of the box";
+    const std::size_t k = cell.side % 3;
+    const std::vector<ScaledMatrix<Rational>> matrices = matrices_of(box);
+    if (matrices.empty()) return "a box beyond a side has too many orientations";
+    for (const ScaledMatrix<Rational>& m : matrices) {
+      const Rational reference = product(m, cells_.reference)[k] / m.scale;
+      if (cell.side < 3 ? box.high[k] - reference >= (*claim_.box)[0][k]
+                        : box.low[k] - reference <= (*claim_.box)[1][k]) {
+        return "a box is not beyond the side of the claim's box";
+      }
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool are_sides_apart() const {
+    if (!std::all_of(roots_.begin(), roots_.end(), [](const BoxNode& root) { return is_apart_inside(root); }))
+      return false;
+    const std::vector<ChartSeam>& seams = orientations_->seams();
+    return std::all_of(seams.begin(), seams.end(), [&](const ChartSeam& seam) {
+      return are_apart(roots_[seam.chart], roots_[seam.other],
+                       [&](const PoseBox& a, const PoseBox& b) { return meet_at(seam, a, b); });
+    });
+  }
+
+  static bool is_apart_inside(const BoxNode& node) {
+    if (node.halves.empty()) return true;
+    const std::uint32_t axis = node.cell->axis;
+    return are_apart(node.halves[0], node.halves[1],
+                     [axis](const PoseBox& a, const PoseBox& b) { return meet_along(axis, a, b); }) &&
+           is_apart_inside(node.halves[0]) && is_apart_inside(node.halves[1]);
+  }
+
+  static bool are_apart(const BoxNode& a, const BoxNode& b, const FacetTest& meet) {
+    if (!((a.at_start && b.at_goal) || (a.at_goal && b.at_start)) || !meet(a.box, b.box)) return true;
+    for (const BoxNode& half : a.halves) {
+      if (!are_apart(half, b, meet)) return false;
+    }
+    if (!a.halves.empty()) return true;
+    for (const BoxNode& half : b.halves) {
+      if (!are_apart(a, half, meet)) return false;
+    }
+    return !b.halves.empty();
+  }
+
+  [[nodiscard]] bool is_on_side(const RigidPose& pose, Kind side) const {
+    const std::optional<OrientationBox<Rational>> orientation = orientations_->locate(pose.quaternion);
+    if (!orientation) return false;
+    const Matrix3 turn = rotation_between(pose.quaternion, pose.quaternion);
+    PoseBox at;
+    bool is_outside = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      at.low[k] = at.high[k] = pose.position[k] + dot(turn[k], cells_.reference);
+      at.low[3 + k] = orientation->low[k];
+      at.high[3 + k] = orientation->high[k];
+      is_outside = is_outside || at.low[k] < cells_.bounds[0][k] || at.low[k] > cells_.bounds[1][k];
+    }
+    if (is_outside && !claim_.box) return cells_.outside_at_start == (side == Kind::kStart);
+    return is_in(roots_[orientation->chart], at, side);
+  }
+
+  static bool is_in(const BoxNode& node, const PoseBox& at, Kind side) {
+    for (std::size_t k = 0; k < 6; ++k) {
+      if (at.low[k] < node.box.low[k] || at.high[k] > node.box.high[k]) return false;
+    }
+    return node.cell->kind == side || std::any_of(node.halves.begin(), node.halves.end(),
+                                                  [&](const BoxNode& half) { return is_in(half, at, side); });
+  }
+
+  const PathProof::Claim& claim_;
+  const PathProof::PoseCells& cells_;
+  std::optional<Orientations> orientations_;
+  std::vector<std::vector<HalfSpace>> robot_;  // seen from the reference point; none for flat pieces
+  std::vector<std::vector<HalfSpace>> obstacles_;
+  std::vector<BoxNode> roots_;
+};
+
+}  // namespace
+
+std::optional<std::string> complaint_about_cells(const PathProof& proof) { return CellsCheck(proof).run(); }
+
+}  // namespace nef::planner

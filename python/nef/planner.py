@@ -170,7 +170,8 @@ class Plan:
     - waypoints: the path, a list of three Fractions each; None if there is none
     - turns: of a robot that turns, for each way-point the quaternion w, x, y, z of its rotation, of any length; else None
     - degrees: the same as floats, if it turns about an axis; else None
-    - samples, slices: of a robot that turns freely: how many random poses and exact free spaces the search took; else None
+    - samples, slices, boxes: of a robot that turns freely: how many random poses, exact free spaces and, for a proof that
+      there is no path, boxes of poses the search took; else None
     - open_ranges: undecided: the ranges of degrees in question
     - unrounded: numbers of way-points between the ends with more decimals than `digits`
     - length: of the path, a float; None for a robot that turns
@@ -190,6 +191,7 @@ class Plan:
         self.degrees = answer.get("degrees")
         self.samples = answer.get("samples")
         self.slices = answer.get("slices")
+        self.boxes = answer.get("boxes")
         self.open_ranges = answer.get("open_ranges", [])
         self.unrounded = answer.get("unrounded", [])
         self.length = answer.get("length")
@@ -389,8 +391,8 @@ class Scene:
         - max_cells: for a robot that turns about an axis: maximal number of cells of angles (2000); freely: of exact free
           spaces (2000, or without limit if seconds is given)
 
-        Of a robot that turns freely every motion of a path is certified; a search without a path proves nothing, so the
-        status is 'undecided' then, never 'infeasible'.
+        Of a robot that turns freely every motion of a path is certified, and 'infeasible' is proved; a search that ends
+        with neither is 'undecided'.
         """
         scene = self._scene.with_ends(start, goal)
         if scene.start is None or scene.goal is None:
@@ -449,10 +451,11 @@ class Scene:
 
     def prove(self, path: Any = None, *, start: Any = None, goal: Any = None) -> str:
         """A proof that others can check, as the text of a .proof file (`planner --proof`): of a path, that none of its poses
-        collides or one does; without a path, that there is one from start to goal by translation, or none.
+        collides or one does; without a path, that there is one from start to goal, or none, for the motions that the scene
+        allows.
 
         - path: as in certify()
-        - start, goal: three numbers each; those of the scene's file if None
+        - start, goal: as in plan()
 
         Write the text to a file, and `python/proofs/check.py FILE` checks it with Python's standard library alone. Raises
         InputError if there is no proof.
@@ -475,7 +478,22 @@ class Scene:
         scene = self._scene.with_ends(start, goal)
         if scene.start is None or scene.goal is None:
             raise InputError("a proof needs a path, or a start and a goal")
+        if scene.turns_freely or scene.rotation is not None:
+            return self._prove_turning(scene, start, goal)
         return self.build()._space.prove(scene.start, scene.goal)
+
+    def _prove_turning(self, scene, start, goal) -> str:
+        if scene.turns_freely:
+            answer = _planner.solve_rigid(scene, None, None)
+            plan, text = Plan(answer, "rigid"), answer.get("proof_text")
+        else:
+            plan = self.plan(start=start, goal=goal)
+            text = scene.prove_no_path() if plan.status == "infeasible" else None
+        if plan.status == "path":
+            return self.prove(plan)
+        if text is None:
+            raise InputError(f"the answer is {plan.status!r}, and there is no proof of it")
+        return text
 
     def prove_tight(self) -> str:
         """The proof that the tight passages are tight, as the text of a .proof file (`planner --tight --proof`). Raises InputError

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// --proof and --check-proof for paths.
+// --proof and --check-proof for paths, and that there is none.
 #include "apps/planner/command/runs.h"
 
 #include <iostream>
 
 #include "apps/planner/command/findings.h"
+#include "apps/planner/orientation/no_rigid_path.h"
 #include "apps/planner/proofs/answer_proof.h"
 #include "apps/planner/proofs/proof_file.h"
+#include "apps/planner/rigid/certified_path.h"
 #include "apps/planner/rigid/pose_file.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
@@ -45,6 +47,39 @@ void write_translation_proof(const Arguments& a, const Scene& scene, const FreeS
     throw InputError("--proof " + a.proof + ": " + error.what());
   }
   write_file(a.proof, text);
+}
+
+void write_turning_proof(const Arguments& a, const Scene& scene, const TurningAnswer& answer) {
+  if (a.proof.empty()) return;
+  if (answer.status == TurningAnswer::Status::kInfeasible) {
+    NoPathLimits limits;
+    if (a.app->count("--max-cells") > 0) limits.max_cells = a.max_cells;
+    const NoPathAnswer found = prove_no_rigid_path(scene, limits, a.session.monitor);
+    if (found.proof) {
+      write_file(a.proof, proof_text(*found.proof));
+    } else {
+      std::cerr << "planner: " << a.proof
+                << " was not written: no point of the robot shows by its positions alone that "
+                << "there is no path; the report (-o FILE.json) has a proof by cells of angles\n";
+    }
+    return;
+  }
+  if (answer.status != TurningAnswer::Status::kPath) {
+    std::cerr << "planner: " << a.proof
+              << " was not written, because the answer is neither a path nor that there is none\n";
+    return;
+  }
+  if (scene.robot_rotation.linear != AffineMap::identity().linear) {
+    throw InputError(
+        "--proof: paths of an OMPL.app problem that turn are proved with --path, in poses of the robot's file");
+  }
+  const TurningAxis axis(scene.rotation->axis);
+  std::vector<RigidPose> poses;
+  for (const Pose& pose : answer.path) poses.push_back({pose.position, axis.quaternion(pose.turn)});
+  const MotionChecker checker = MotionChecker::of_scene(scene, a.session.monitor);
+  CheckLimits limits;
+  limits.keep_parts = true;
+  write_path_proof(a, checker, poses, certify(checker, poses, MotionTiming::kSlerp, limits));
 }
 
 int tell_check(const Arguments& a, const std::string& title, nlohmann::json found,

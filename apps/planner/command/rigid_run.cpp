@@ -5,11 +5,13 @@
 #include "apps/planner/command/report.h"
 #include "apps/planner/command/runs.h"
 #include "apps/planner/command/scene_view.h"
+#include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid_search/pose_metric.h"
 #include "apps/planner/rigid_search/rigid_planning.h"
 #include "nef/base/counted.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/base/timing/time_limit.h"
+#include "nef/io/file_bytes.h"
 #include "nef/io/number_text.h"
 
 namespace nef::planner {
@@ -20,10 +22,11 @@ using nlohmann::json;
 RigidLimits limits_of(const Arguments& a) {
   RigidLimits limits;
   if (a.time && a.app->count("--max-cells") == 0) {
-    limits.max_samples = limits.max_slices = std::numeric_limits<std::uint32_t>::max();
+    limits.max_samples = limits.max_slices = limits.max_boxes = std::numeric_limits<std::uint32_t>::max();
   } else {
     limits.max_slices = a.max_cells;
     limits.max_samples = RigidLimits().max_samples / RigidLimits().max_slices * a.max_cells;
+    limits.max_boxes = RigidLimits().max_boxes / RigidLimits().max_slices * a.max_cells;
   }
   return limits;
 }
@@ -35,6 +38,7 @@ json rigid_json(const RigidAnswer& answer, const Scene& scene) {
   result["contact"] = scene.contact == ContactRule::kAllow ? "allow" : "forbid";
   result["samples"] = answer.samples;
   result["slices"] = answer.slices;
+  result["boxes"] = answer.boxes;
   if (answer.collision) result["collision"] = collision_json(*answer.collision, scene);
   return result;
 }
@@ -65,6 +69,9 @@ void print(const Arguments& a, const RigidAnswer& answer, const Scene& scene) {
       std::cout << ": " << counted(answer.path.size(), "way-point", "way-points") << ", every motion certified\n";
       if (a.outputs.empty()) std::cout << rigid_text(answer.path);
       break;
+    case RigidAnswer::Status::kInfeasible:
+      std::cout << " at every orientation, proved with " << counted(answer.boxes, "box", "boxes") << " of poses\n";
+      break;
     case RigidAnswer::Status::kUndecided:
       std::cout << ": no path found with " << counted(answer.samples, "sample", "samples") << " and "
                 << counted(answer.slices, "slice", "slices") << ", which proves nothing\n";
@@ -79,6 +86,10 @@ void write_proof(const Arguments& a, const Scene& scene, const MotionChecker& ch
   if (a.proof.empty()) return;
   if (answer.status == RigidAnswer::Status::kUndecided) {
     std::cerr << "planner: " << a.proof << " was not written, because the answer is undecided\n";
+    return;
+  }
+  if (answer.proof) {
+    write_file(a.proof, proof_text(*answer.proof));
     return;
   }
   std::vector<RigidPose> poses = answer.path;

@@ -69,9 +69,6 @@ int run(const Arguments& a) {
   if (a.widest || a.widest_box) widest = make_widest(a, scene);
   if (scene.turns_freely) return run_rigid(a, scene);
   if (scene.rotation) return run_turning(a, scene, widest);
-  if (scene.turns_freely) {
-    if (const std::optional<int> code = run_no_path(a, scene)) return *code;
-  }
   return run_translations(a, scene, widest, path);
 }
 

@@ -60,8 +60,8 @@ nlohmann::json certified_json(const CertifiedPath& path, const std::vector<Rigid
 std::vector<view::Layer> certified_layers(const CertifiedPath& path, std::vector<RigidPose> poses, const Scene& scene,
                                           const MotionChecker& checker);
 
-/// A scene whose robot turns freely: plans a path whose motions are certified. 0 a path, 3 invalid start or goal, 5
-/// undecided.
+/// A scene whose robot turns freely: a path whose motions are certified, or a proof that there is none. 0 a path, 1 there
+/// is none, 3 invalid start or goal, 5 undecided.
 int run_rigid(const Arguments& a, const Scene& scene);
 
 /// A scene whose robot only translates: paths, queries, the path of --path (`given`), OMPL's planners. `widest`, if not
@@ -76,10 +76,6 @@ int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& wi
 /// --check-proof with a .proof file: checks it against the scene and the path of --path. 0 it holds, 1 it does not.
 /// Nothing if the file is no .proof file.
 std::optional<int> run_check_proof(const Arguments& a, const Scene& scene);
-
-/// A scene whose robot turns freely or about an axis: looks for a proof that there is no path (prove_no_rigid_path)
-/// and, if there is one, prints that, writes it if --proof asks for it, and returns 1. Otherwise nothing is printed.
-std::optional<int> run_no_path(const Arguments& a, const Scene& scene);
 
 /// Writes the proof of an answer about a robot that turns about an axis, if --proof asks for it: of its path, or that
 /// there is none. If there is no such proof, a note says so.

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Phases of both searches, each of twice the size of the one before. Slices cost a Minkowski sum each, so of scenes
+// Phases of the three searches, each of twice the size of the one before. Slices cost a Minkowski sum each, so of scenes
 // with many pieces fewer are made in a phase. The sizes do not depend on times, so neither does the answer.
 #include "apps/planner/rigid_search/rigid_planning.h"
 
 #include <algorithm>
 
 #include "apps/planner/free_space/collision.h"
+#include "apps/planner/orientation/no_rigid_path.h"
 #include "apps/planner/rigid_search/certified_trees.h"
 #include "apps/planner/rigid_search/shorten_poses.h"
 #include "apps/planner/rigid_search/slice_search.h"
@@ -18,6 +19,7 @@ namespace {
 
 constexpr std::size_t kFirstSamples = 500;
 constexpr std::size_t kFirstSlices = 40;
+constexpr std::size_t kFirstBoxes = 1000;
 constexpr std::size_t kLightPairs = 2000;  // pairs of pieces; scenes with more get fewer slices
 
 class RigidPlanning {
@@ -52,7 +54,8 @@ class RigidPlanning {
         std::max<std::size_t>(checker_.robot().pieces().size() * checker_.obstacles().pieces().size(), 1);
     std::size_t samples = 0;
     std::size_t slices = 0;
-    for (std::size_t size = 1; trees_->samples() < limits_.max_samples || !slices_are_done_; size *= 2) {
+    for (std::size_t size = 1; trees_->samples() < limits_.max_samples || !slices_are_done_ || !proofs_are_done_;
+         size *= 2) {
       samples = std::min(samples + kFirstSamples * size, limits_.max_samples);
       if (const auto path = trees_->run(samples, monitor_)) {
         if (is_answer(*path)) return;
@@ -62,7 +65,21 @@ class RigidPlanning {
       slices = std::min(slices + some, limits_.max_slices);
       if (search_slices(slices)) return;
       count();
+      if (search_proof(std::min(kFirstBoxes * size, limits_.max_boxes))) return;
     }
+  }
+
+  // True if there is no path. More boxes help only where the attempt before has used all that it had.
+  bool search_proof(std::size_t boxes) {
+    if (proofs_are_done_) return false;
+    NoPathAnswer found;
+    if (boxes > 0) found = prove_no_rigid_path(checker_, question_.start, question_.goal, {}, {boxes}, monitor_);
+    answer_.boxes = found.cells;
+    proofs_are_done_ = found.proof || found.cells < boxes || boxes == limits_.max_boxes;
+    if (!found.proof) return false;
+    answer_.status = RigidAnswer::Status::kInfeasible;
+    answer_.proof = std::move(found.proof);
+    return true;
   }
 
   // True if there is an answer.
@@ -108,6 +125,7 @@ class RigidPlanning {
   std::optional<CertifiedTrees> trees_;
   std::unique_ptr<SliceSearch> slices_;
   bool slices_are_done_ = false;
+  bool proofs_are_done_ = false;
   RigidAnswer answer_;
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/planner/path/answer.h"
+#include "apps/planner/proofs/path_proof.h"
 #include "apps/planner/rigid/certified_path.h"
 #include "apps/planner/rigid/rigid_question.h"
 #include "nef/base/monitor.h"
@@ -18,28 +19,32 @@ namespace nef::planner {
 struct RigidLimits {
   std::size_t max_slices = 2000;    ///< exact free spaces at rotations
   std::size_t max_samples = 32000;  ///< random poses
+  std::size_t max_boxes = 50000;    ///< boxes of poses in a proof that there is no path
 };
 
 /// What is known of a question about a rigid body.
 struct RigidAnswer {
-  using Status = AnswerStatus;  ///< kPath, kInvalidStart, kInvalidGoal or kUndecided
+  using Status = AnswerStatus;  ///< kPath, kInfeasible, kInvalidStart, kInvalidGoal or kUndecided
   Status status = Status::kUndecided;
   /// kPath: way-points from start to goal. Between two the position goes straight and the rotation along the shorter
   /// arc, at constant speed (MotionTiming::kSlerp).
   std::vector<RigidPose> path;
   /// kPath: the proof of each motion.
   CertifiedPath certified;
+  /// kInfeasible: the proof that every path collides, however the robot turns (no_rigid_path.h). It has been checked.
+  std::optional<PathProof> proof;
   /// kInvalidStart, kInvalidGoal: what the robot hits there. Nothing if it only touches a surface.
   std::optional<Collision> collision;
   std::size_t samples = 0;  ///< random poses that were drawn
   std::size_t slices = 0;   ///< exact free spaces that were computed
   unsigned rounds = 0;      ///< of slices that were searched to the end, each finer than the one before
+  std::size_t boxes = 0;    ///< boxes of poses in the last attempt to prove that there is no path
 };
 
-/// Searches in turns by random poses (certified_trees.h), which is quick where there is room, and through exact slices
-/// (slice_search.h), which finds narrow places. Every motion is certified, and checked once more before the path is
-/// returned. A search that ends without a path proves nothing: the answer is kUndecided then, and when the monitor
-/// stops it. The answer is the same in every run unless it is stopped. `checker` must be that of the scene. Throws
+/// Searches in turns by random poses (certified_trees.h), which is quick where there is room, through exact slices
+/// (slice_search.h), which finds narrow places, and for a proof that there is no path (no_rigid_path.h). Every motion is
+/// certified, and checked once more before the path is returned. A search that ends with neither proves nothing: the
+/// answer is kUndecided then, and when the monitor stops it. The answer is the same in every run unless it is stopped. `checker` must be that of the scene. Throws
 /// InputError unless the scene's robot turns freely and has a start and a goal.
 RigidAnswer find_rigid_path(const Scene& scene, const MotionChecker& checker, const RigidLimits& limits = {},
                             const Monitor& monitor = {});

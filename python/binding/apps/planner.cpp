@@ -6,6 +6,7 @@
 
 #include "apps/planner/clearance/widest_robot.h"
 #include "apps/planner/path/question.h"
+#include "apps/planner/orientation/no_rigid_path.h"
 #include "apps/planner/proofs/answer_proof.h"
 #include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid/certified_path.h"
@@ -156,9 +157,10 @@ py::dict solve_rigid(const plan::Scene& scene, const py::object& max_cells, cons
   plan::RigidLimits limits;
   if (!max_cells.is_none()) {
     limits.max_samples = limits.max_samples / limits.max_slices * max_cells.cast<std::size_t>();
+    limits.max_boxes = limits.max_boxes / limits.max_slices * max_cells.cast<std::size_t>();
     limits.max_slices = max_cells.cast<std::size_t>();
   } else if (!seconds.is_none()) {
-    limits.max_samples = limits.max_slices = std::numeric_limits<std::uint32_t>::max();
+    limits.max_samples = limits.max_slices = limits.max_boxes = std::numeric_limits<std::uint32_t>::max();
   }
   const plan::RigidAnswer answer = call(kSmallCall, [=, time = time_of(seconds)](const Monitor& monitor) {
     const TimeLimit limit(time, monitor);
@@ -182,6 +184,8 @@ py::dict solve_rigid(const plan::Scene& scene, const py::object& max_cells, cons
   }
   result["samples"] = answer.samples;
   result["slices"] = answer.slices;
+  result["boxes"] = answer.boxes;
+  if (answer.proof) result["proof_text"] = plan::proof_text(*answer.proof);
   if (answer.collision) result["collision"] = plan::describe(*answer.collision, scene);
   return result;
 }
@@ -295,6 +299,13 @@ py::object prove_path(const plan::Scene& scene, const py::sequence& path) {
     return plan::make_path_proof(checker, poses, monitor);
   });
   return proof ? py::object(py::str(plan::proof_text(*proof))) : py::none();
+}
+
+// The text of a proof that a robot that turns about an axis has no path; None if there is none.
+py::object prove_no_path(const plan::Scene& scene) {
+  const plan::NoPathAnswer found =
+      call(kSmallCall, [scene](const Monitor& monitor) { return plan::prove_no_rigid_path(scene, {}, monitor); });
+  return found.proof ? py::object(py::str(plan::proof_text(*found.proof))) : py::none();
 }
 
 // What is wrong with the text of a proof, by itself and as one about a scene; None if it holds.
@@ -463,6 +474,7 @@ void define_module(py::module_& m) {
       .def("invalid_end", &invalid_end)
       .def("certify", &certify)
       .def("prove_path", &prove_path)
+      .def("prove_no_path", &prove_no_path)
       .def("complaint", &complaint_about)
       .def_property_readonly("turns_freely", [](const plan::Scene& s) { return s.turns_freely; })
       .def_property_readonly("start", [](const plan::Scene& s) { return end_of(s, 0); })

@@ -27,7 +27,8 @@ class SliceSearch {
   SliceSearch& operator=(const SliceSearch&) = delete;
 
   /// Goes on until a path is found or so many slices are made in all. Poses from start to goal, each motion certified
-  /// for MotionTiming::kSlerp; or nothing. Throws Interrupted when the monitor stops it; it can go on afterwards.
+  /// for MotionTiming::kSlerp; or nothing; then it can go on with more. Throws Interrupted when the monitor stops it,
+  /// which ends the search.
   std::optional<std::vector<RigidPose>> run(std::size_t max_slices, const Monitor& monitor);
 
   /// How many slices were made.

@@ -56,7 +56,7 @@ class NoPathCase {
     scene.goal = Rational3{6, 0, 0};
     scene.turns_freely = true;
     scene.quaternions = {{{1, 0, 0, 0}, random_quaternion()}};
-    const NoPathAnswer answer = planner::prove_no_rigid_path(scene, {.max_cells = 600});
+    const NoPathAnswer answer = planner::prove_no_rigid_path(scene, {.max_cells = 3000});
     case_.count("walls");
     if (!answer.proof) return;
     case_.count("proofs");

@@ -61,7 +61,7 @@ CASES = [
     ("wedged", WEDGED, None, "inseparable: no set of 3 parts"),
     ("apart", dict(SHEET, contact="forbid"), "0 0 0 0 0 1 3\n2 1 1 1 2 -1 3\n", "path: all 1 motions are free"),
 ]
-TAMPERED = {"tight": 600, "narrower": 600, "boxed": 150, "wedged": 150, "window": 60, "corner": 400}  # proofs whose checks take a twentieth of a second and more
+TAMPERED = {"tight": 600, "narrower": 600, "boxed": 150, "wedged": 150, "window": 30, "corner": 300}  # proofs whose checks take a twentieth of a second and more
 TAMPERED_OTHERS = 1700  # of each other one
 
 # What may change in a proof that still holds: it has other numbers that show the same.
@@ -195,7 +195,8 @@ class Replay(unittest.TestCase):
                 except check.Refused:
                     code = [1, 2]
                 # A vertex may change without the set, which the planner compares, but not the digest of the claim.
-                if all(re.search("/claim/(robot|obstacles|parts)", address) for address in where):
+                pieces = [re.search("/claim/(robot|obstacles|parts)", address) for address in where]
+                if any(pieces) and all(piece or IRRELEVANT.search(address) for piece, address in zip(pieces, where)):
                     code = [0, 1, 2]
                 run = planner(*arguments, "--check-proof", file)
                 self.assertIn(run.returncode, code, (name, where, run.stdout, run.stderr))

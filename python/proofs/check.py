@@ -122,11 +122,21 @@ def root(x, upper):
     return Fraction(math.isqrt((x.numerator << 2 * shift) // x.denominator) + upper, 1 << shift)
 
 
+def rounded(x, upper):
+    """The next multiple of 2^-128: exact powers would have tens of thousands of digits."""
+    n = x.numerator << 128
+    return Fraction(-(-n // x.denominator) if upper else n // x.denominator, 1 << 128)
+
+
 def arc_tangent(x, upper):
     """A bound of the arcus tangent, 0 <= x <= 1: the angle is halved twice, and then the series alternates."""
     for _ in range(2):
-        x = x / (1 + root(1 + x * x, not upper))
-    return 4 * sum((-1) ** k * x ** (2 * k + 1) / (2 * k + 1) for k in range(19 if upper else 18))
+        x = rounded(x / (1 + root(1 + x * x, not upper)), upper)
+    total, power = Fraction(0), [x, x]  # bounds from below and from above
+    for k in range(19 if upper else 18):
+        total += (-1) ** k * power[(k % 2 == 0) == upper] / (2 * k + 1)
+        power = [rounded(power[side] * x * x, side) for side in (False, True)]
+    return rounded(4 * total, upper)
 
 
 def half_angle(p, r, upper):
@@ -159,8 +169,8 @@ class Motion:
         if not self.turns or s in (0, 1):
             return s, s
         r, least = self.quaternion(s), half_angle(self.p, self.q, False)
-        low = half_angle(self.p, r, False) / half_angle(self.p, self.q, True)
-        return low, min(1, half_angle(self.p, r, True) / least) if least else 1
+        low = rounded(half_angle(self.p, r, False) / half_angle(self.p, self.q, True), False)
+        return low, min(1, rounded(half_angle(self.p, r, True) / least, True)) if least else 1
 
 
 # Paths.

@@ -24,7 +24,7 @@ bool is_multiple(const Rational& x, const Rational& unit) { return Rational(x / 
 }  // namespace
 
 Quaternion canonical(const Quaternion& q) {
-  const Rational scale = q[largest_of(q)];
+  const Rational& scale = q[largest_of(q)];
   Quaternion result;
   for (std::size_t k = 0; k < 4; ++k) result[k] = q[k] / scale;
   return result;

@@ -14,7 +14,7 @@
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
 
-namespace nef::planner::test {
+namespace nef::planner::test::tight_proof {
 namespace {
 
 Scene scene_of(const std::string& robot, const std::string& obstacles, const AffineMap& map = AffineMap::identity()) {
@@ -191,4 +191,4 @@ TEST_CASE("planner --tight --proof and --check-proof") {
 }
 
 }  // namespace
-}  // namespace nef::planner::test
+}  // namespace nef::planner::test::tight_proof

@@ -119,11 +119,13 @@ py::object repaired(py::handle vertices, py::handle faces, bool strict, bool fil
   const bool solid = made->problem.empty();
   warn(made->notes, 2);
   return result_of(
-      "Repair", py::make_tuple(solid ? py::cast(made->set) : py::none(),
-                               solid ? py::object(py::none())
-                                     : py::object(py::str(made->problem + advice_about(*made, options.close_percent))),
-                               made->done, fates, made->record.added, made->record.pieces.kept,
-                               made->record.pieces.dropped, volumes, made->holes, made->lid_share, made->has_lids));
+      "Repair",
+      py::make_tuple(
+          solid ? py::cast(made->set) : py::none(),
+          solid ? py::object(py::none())
+                : py::object(py::str(in_words_of_python(made->problem + advice_about(*made, options.close_percent)))),
+          made->done, fates, made->record.added, made->record.pieces.kept, made->record.pieces.dropped, volumes,
+          made->holes, made->lid_share, made->has_lids));
 }
 
 Polyhedron evaluate(const std::string& text, const std::string& crossings, py::handle close) {

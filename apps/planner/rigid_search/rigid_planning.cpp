@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kFirstSamples = 500;
 constexpr std::size_t kFirstSlices = 40;
-constexpr std::size_t kFirstBoxes = 1000;
+constexpr std::size_t kFirstBoxes = 10000;
 constexpr std::size_t kLightPairs = 2000;  // pairs of pieces; scenes with more get fewer slices
 
 class RigidPlanning {

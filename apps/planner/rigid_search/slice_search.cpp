@@ -271,7 +271,7 @@ class SliceSearch::State {
     std::vector<Quaternion> rotations;
     std::vector<Vector3d> positions;
     for (std::size_t i = 0; i <= parts; ++i) {
-      const Rational share(static_cast<long>(i), static_cast<long>(parts));
+      const Rational share = Rational(static_cast<long>(i)) / static_cast<long>(parts);
       rotations.push_back(i == 0       ? node.rotation
                           : i == parts ? rotation
                                        : canonical(rotation_at(node.rotation, rotation, share)));

@@ -57,10 +57,11 @@ void check_path(const Scene& scene, const RigidAnswer& answer, std::size_t poses
   const MotionChecker checker = MotionChecker::of_scene(scene);
   CHECK(certify(checker, answer.path).status == MotionVerdict::Status::kFree);
   const std::size_t motions = answer.path.size() - 1;
+  const std::size_t steps = poses / motions + 1;
   for (std::size_t i = 0; i < motions; ++i) {
     const RigidMotion motion(answer.path[i], answer.path[i + 1], MotionTiming::kSlerp);
-    for (std::size_t k = 0; k <= poses / motions; ++k) {
-      const double s = static_cast<double>(k) / static_cast<double>(poses / motions + 1);
+    for (std::size_t k = 0; k < steps; ++k) {
+      const double s = static_cast<double>(k) / static_cast<double>(steps);
       const RigidPose pose = motion.at(s);
       // Positions in between are rounded, so poses with contact are left to the checker, which says that they are free.
       if (checker.check(pose).status == MotionVerdict::Status::kFree) {

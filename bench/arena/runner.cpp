@@ -138,8 +138,11 @@ void write(const std::string& path, const json& result) {
 // Exit code 1 if a run failed.
 int answer(const std::string& request_file, const std::string& result_file, unsigned threads) {
   const json request = json::parse(std::ifstream(request_file));
-  json result{{"kind", request.at("kind")}, {"version", request.at("version")}, {"id", request.at("id")},
-              {"threads", threads},         {"runs", json::array()}};
+  json result{{"kind", request.at("kind")},
+              {"version", request.at("version")},
+              {"id", request.at("id")},
+              {"threads", threads},
+              {"runs", json::array()}};
   const Monitor monitor = Monitor().on_threads(threads);
   bool failed = false;
   Clock since_written;

@@ -60,8 +60,8 @@ nlohmann::json certified_json(const CertifiedPath& path, const std::vector<Rigid
 std::vector<view::Layer> certified_layers(const CertifiedPath& path, std::vector<RigidPose> poses, const Scene& scene,
                                           const MotionChecker& checker);
 
-/// A scene whose robot turns freely: a path whose motions are certified, or a proof that there is none. 0 a path, 1 there
-/// is none, 3 invalid start or goal, 5 undecided.
+/// A scene whose robot turns freely: a path whose motions are certified, or a proof that there is none. 0 a path, 1
+/// there is none, 3 invalid start or goal, 5 undecided.
 int run_rigid(const Arguments& a, const Scene& scene);
 
 /// A scene whose robot only translates: paths, queries, the path of --path (`given`), OMPL's planners. `widest`, if not

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Phases of the three searches, each of twice the size of the one before. Slices cost a Minkowski sum each, so of scenes
-// with many pieces fewer are made in a phase. The sizes do not depend on times, so neither does the answer.
+// Phases of the three searches, each of twice the size of the one before. Slices cost a Minkowski sum each, so of
+// scenes with many pieces fewer are made in a phase. The sizes do not depend on times, so neither does the answer.
 #include "apps/planner/rigid_search/rigid_planning.h"
 
 #include <algorithm>

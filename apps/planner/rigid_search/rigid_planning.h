@@ -42,10 +42,11 @@ struct RigidAnswer {
 };
 
 /// Searches in turns by random poses (certified_trees.h), which is quick where there is room, through exact slices
-/// (slice_search.h), which finds narrow places, and for a proof that there is no path (no_rigid_path.h). Every motion is
-/// certified, and checked once more before the path is returned. A search that ends with neither proves nothing: the
-/// answer is kUndecided then, and when the monitor stops it. The answer is the same in every run unless it is stopped. `checker` must be that of the scene. Throws
-/// InputError unless the scene's robot turns freely and has a start and a goal.
+/// (slice_search.h), which finds narrow places, and for a proof that there is no path (no_rigid_path.h). Every motion
+/// is certified, and checked once more before the path is returned. A search that ends with neither proves nothing: the
+/// answer is kUndecided then, and when the monitor stops it. The answer is the same in every run unless it is stopped.
+/// `checker` must be that of the scene. Throws InputError unless the scene's robot turns freely and has a start and a
+/// goal.
 RigidAnswer find_rigid_path(const Scene& scene, const MotionChecker& checker, const RigidLimits& limits = {},
                             const Monitor& monitor = {});
 

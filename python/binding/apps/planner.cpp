@@ -5,8 +5,8 @@
 #include <pybind11/stl.h>
 
 #include "apps/planner/clearance/widest_robot.h"
-#include "apps/planner/path/question.h"
 #include "apps/planner/orientation/no_rigid_path.h"
+#include "apps/planner/path/question.h"
 #include "apps/planner/proofs/answer_proof.h"
 #include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid/certified_path.h"

@@ -103,16 +103,16 @@ TEST_CASE("proofs with forbidden contact, of a robot that is not convex") {
 
 TEST_CASE("no proof where there is a path, or the limits are narrow") {
   const std::string cube = "box(-1/2,-1/2,-1/2, 1/2,1/2,1/2)";
-  CHECK_FALSE(prove_no_rigid_path(scene_of(wall(cube, "box(-1,-1/2,-1/2, 1,1/2,1/2)", kInBox)), {.max_cells = 1500})
+  CHECK_FALSE(prove_no_rigid_path(scene_of(wall(cube, "box(-1,-1/2,-1/2, 1,1/2,1/2)", kInBox)), {.max_cells = 200})
                   .proof.has_value());
-  CHECK_FALSE(prove_no_rigid_path(scene_of(wall(cube, "box(-1,-2,-2, 1,2,2)", kInBox)), {.max_cells = 1500}).proof);
+  CHECK_FALSE(prove_no_rigid_path(scene_of(wall(cube, "box(-1,-2,-2, 1,2,2)", kInBox)), {.max_cells = 200}).proof);
   const NoPathAnswer few =
       prove_no_rigid_path(scene_of(wall(cube, "box(-1,-1/8,-1/8, 1,1/8,1/8)", kInBox)), {.max_cells = 9});
   CHECK_FALSE(few.proof.has_value());
   CHECK(few.in_question > 0);
   Scene same_side = scene_of(wall(cube, "box(-1,-1/8,-1/8, 1,1/8,1/8)", kInBox));
   same_side.goal = Rational3{-3, 2, 0};
-  CHECK_FALSE(prove_no_rigid_path(same_side, {.max_cells = 500}).proof.has_value());
+  CHECK_FALSE(prove_no_rigid_path(same_side, {.max_cells = 100}).proof.has_value());
 }
 
 TEST_CASE("about one axis a chain of arcs takes the place of all rotations") {

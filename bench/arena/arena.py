@@ -27,13 +27,8 @@ import sys
 import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-
-
-def write_off(path, vertices, faces):
-    with open(path, "w", encoding="ascii") as file:
-        file.write(f"OFF\n{len(vertices)} {len(faces)} 0\n")
-        file.writelines("%r %r %r\n" % tuple(v) for v in vertices)
-        file.writelines("3 %d %d %d\n" % tuple(f) for f in faces)
+sys.path.insert(0, str(ROOT / "bench"))
+import mesh_rows  # pylint: disable=wrong-import-position
 
 
 def read_mesh(path):
@@ -68,43 +63,9 @@ def box(low, high):
     return vertices, [t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]
 
 
-def bumpy(rings, columns, centre=(0, 0, 0), radius=1.0, bumps=.1):
-    """2 columns (rings - 1) triangles."""
-    vertices = [(0, 0, -1), (0, 0, 1)]
-    for i in range(1, rings):
-        for j in range(columns):
-            theta, phi = math.pi * i / rings, 2 * math.pi * (j + i / 2) / columns
-            r = 1 + bumps * math.sin(5 * theta) * math.cos(3 * phi)
-            vertices.append((r * math.sin(theta) * math.cos(phi), r * math.sin(theta) * math.sin(phi), -r * math.cos(theta)))
-    at = lambda i, j: 2 + (i - 1) * columns + j % columns
-    faces = [(0, at(1, j + 1), at(1, j)) for j in range(columns)] + [(1, at(rings - 1, j), at(rings - 1, j + 1)) for j in range(columns)]
-    for i in range(1, rings - 1):
-        for j in range(columns):
-            faces += [(at(i, j), at(i, j + 1), at(i + 1, j)), (at(i, j + 1), at(i + 1, j + 1), at(i + 1, j))]
+def ball(centre, radius):
+    vertices, faces = mesh_rows.bumpy(16, 24, (0, 0, 0))
     return [[radius * x + c for x, c in zip(v, centre)] for v in vertices], faces
-
-
-def tetrahedra(count):
-    dice = random.Random(5)
-    vertices, faces = [], []
-    for _ in range(count):
-        centre = [dice.uniform(0, 7) for _ in range(3)]
-        corners = [[c + dice.uniform(-.35, .35) for c in centre] for _ in range(4)]
-        u, v, w = ([corners[i][k] - corners[0][k] for k in range(3)] for i in (1, 2, 3))
-        if sum(u[i] * (v[(i + 1) % 3] * w[(i + 2) % 3] - v[(i + 2) % 3] * w[(i + 1) % 3]) for i in range(3)) < 0:
-            corners[2], corners[3] = corners[3], corners[2]
-        first = len(vertices)
-        vertices += corners
-        faces += [tuple(first + i for i in f) for f in ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))]
-    return vertices, faces
-
-
-def joined(meshes):
-    vertices, faces = [], []
-    for more, their_faces in meshes:
-        faces += [tuple(len(vertices) + i for i in f) for f in their_faces]
-        vertices += more
-    return vertices, faces
 
 
 class Case:
@@ -117,7 +78,7 @@ class Case:
 
     def load(self, mesh):
         path = self.folder / f"mesh_{len(self.operations)}.off"
-        write_off(path, *mesh)
+        mesh_rows.write_off(path, mesh, 17)
         return self.add({"op": "load-mesh", "path": str(path), "name": path.name})
 
     def apply(self, name, *arguments):
@@ -129,7 +90,7 @@ class Case:
 
 
 def exact(case):
-    a, b = case.load(bumpy(40, 60)), case.load(bumpy(40, 60, (.3, .17, .11)))
+    a, b = case.load(mesh_rows.bumpy(40, 60, (0, 0, 0))), case.load(mesh_rows.bumpy(40, 60, (.3, .17, .11)))
     both = case.apply("union", case.apply("difference", a, b), case.apply("intersection", a, b))
     case.apply("union", case.apply("difference", a, both), case.apply("difference", both, a))
     case.volume = 0
@@ -138,7 +99,7 @@ def exact(case):
 def iterate(case):
     part = case.load(box((0, 0, 0), (10, 10, 2)))
     for step in range(60):
-        tool = case.load(bumpy(16, 24, (1 + 8 * (step % 8) / 7.0, 1 + 8 * (step // 8) / 7.0, 2.1), .8, 0))
+        tool = case.load(ball((1 + 8 * (step % 8) / 7, 1 + 8 * (step // 8) / 7, 2.1), .8))
         part = case.apply("difference", part, tool)
 
 
@@ -153,12 +114,12 @@ def touch(case):
 
 
 def itself(case):
-    for mesh in (tetrahedra(1500), joined(bumpy(41, 84, [1.2 * math.cos(7 * i + k) for k in range(3)]) for i in range(15))):
+    for mesh in (mesh_rows.tetrahedra(1500), mesh_rows.spheres()):
         case.apply("union", case.load(mesh))
 
 
 def large(case):
-    a, b = case.load(bumpy(200, 200)), case.load(bumpy(200, 200, (.3, .17, .11)))
+    a, b = case.load(mesh_rows.bumpy(200, 200, (0, 0, 0))), case.load(mesh_rows.bumpy(200, 200, (.3, .17, .11)))
     for name in ("union", "intersection", "difference"):
         case.apply(name, a, b)
 

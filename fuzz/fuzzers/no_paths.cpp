@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/planner/orientation/no_rigid_path.h"
+#include "apps/planner/no_path/no_rigid_path.h"
 #include "fuzz/fuzzer.h"
 #include "nef/construct/construct.h"
 #include "nef/construct/convex_hull.h"

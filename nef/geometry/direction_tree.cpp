@@ -75,30 +75,8 @@ bool near_centre(Cut cut, double size) {
 
 using Corner = std::array<double, 2>;
 
-// True if a line along a side of the first polygon surely has the two on either side. Corners are off by half of
-// kSlack, and what the products round by, 2^-50 of the side, is much less than the other half.
-bool separates_side(std::span<const Corner> first, std::span<const Corner> second) {
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    const Corner& p = first[i];
-    const Corner& q = first[i + 1 == first.size() ? 0 : i + 1];
-    const Corner n{p[1] - q[1], q[0] - p[0]};
-    std::array<double, 2> low{HUGE_VAL, HUGE_VAL};
-    std::array<double, 2> high{-HUGE_VAL, -HUGE_VAL};
-    for (std::size_t k = 0; k < 2; ++k) {
-      for (const Corner& corner : k == 0 ? first : second) {
-        const double at = n[0] * (corner[0] - p[0]) + n[1] * (corner[1] - p[1]);
-        low[k] = std::min(low[k], at);
-        high[k] = std::max(high[k], at);
-      }
-    }
-    const double slack = 2 * kSlack * (std::fabs(n[0]) + std::fabs(n[1]));
-    if (low[0] > high[1] + slack || low[1] > high[0] + slack) return true;
-  }
-  return false;
-}
-
-// The sides of a polygon, to be asked about many boxes. Coordinates are at most 1 + 2^-15, so what is rounded here is
-// 2^-49 of the side at most, and covered like what separates_side rounds.
+// The sides of a polygon, to be asked about many boxes and polygons. Corners are off by half of kSlack; coordinates are
+// at most 1 + 2^-15, so what is rounded here is 2^-49 of the side at most, much less than the other half.
 class Sides {
  public:
   explicit Sides(std::span<const Corner> polygon) {
@@ -129,6 +107,16 @@ class Sides {
         high += n * (n > 0 ? box.high[k] : box.low[k]);
       }
       return low > side.high || high < side.low;
+    });
+  }
+
+  // True if one surely has this polygon and another one on either side.
+  [[nodiscard]] bool separate(std::span<const Corner> polygon) const {
+    return std::any_of(sides_.begin(), sides_.begin() + count_, [polygon](const Side& side) {
+      const auto is_beyond = [&](auto&& beyond) { return std::all_of(polygon.begin(), polygon.end(), beyond); };
+      const auto at = [&](const Corner& c) { return side.normal[0] * c[0] + side.normal[1] * c[1]; };
+      return is_beyond([&](const Corner& c) { return at(c) > side.high; }) ||
+             is_beyond([&](const Corner& c) { return at(c) < side.low; });
     });
   }
 
@@ -222,7 +210,7 @@ bool DirectionTree::find(std::span<const Double3> polygon, std::vector<std::uint
     face.tree.for_each_if(meets, [&](std::uint32_t i) {
       const std::span<const Corner> other =
           std::span(face.corners).subspan(face.corner_begin[i], face.corner_begin[i + 1] - face.corner_begin[i]);
-      if (!separates_side(shape.polygon(), other) && !separates_side(other, shape.polygon())) {
+      if (!sides.separate(other) && !Sides(other).separate(shape.polygon())) {
         items.push_back(face.item_of[i]);
       }
     });

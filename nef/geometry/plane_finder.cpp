@@ -44,16 +44,16 @@ std::uint64_t bits_of(const std::array<std::int64_t, 3>& v) {
 
 // p - o up to a positive factor.
 void difference(const PointTable& points, PointId p, PointId o, Integer3& out) {
-  const IntegerView w = points.coordinate(o, 3);
-  const IntegerView of_p = points.coordinate(p, 3);
-  const bool same = mpz_cmp(w, of_p) == 0;
+  const std::array<IntegerView, 4> from = points.coordinates(o);
+  const std::array<IntegerView, 4> to = points.coordinates(p);
+  const bool same = mpz_cmp(from[3], to[3]) == 0;
   for (std::size_t i = 0; i < 3; ++i) {
     mpz_ptr d = out[i].get_mpz_t();
     if (same) {
-      mpz_sub(d, points.coordinate(p, i), points.coordinate(o, i));
+      mpz_sub(d, to[i], from[i]);
     } else {
-      mpz_mul(d, points.coordinate(p, i), w);
-      mpz_submul(d, points.coordinate(o, i), of_p);
+      mpz_mul(d, to[i], from[3]);
+      mpz_submul(d, from[i], to[3]);
     }
   }
 }
@@ -120,6 +120,7 @@ PlaneId PlaneFinder::through(PlaneTable& planes, const PointTable& points, Point
 // Short normals first: a common factor, mostly 1, would go through all that follows. The plane is w n.x + offset = 0, w
 // being the point's denominator, and what w n and the offset have in common is a divisor of w.
 PlaneId PlaneFinder::with_normal(PlaneTable& planes, const PointTable& points, PointId o) {
+  const std::array<IntegerView, 4> at = points.coordinates(o);
   mpz_ptr offset = offset_.get_mpz_t();
   mpz_set_ui(offset, 0);
   Integer& divisor = u_[0];
@@ -128,12 +129,11 @@ PlaneId PlaneFinder::with_normal(PlaneTable& planes, const PointTable& points, P
   for (std::size_t i = 0; i < 3; ++i) {
     mpz_ptr n = n_[i].get_mpz_t();
     if (divisor > 1) mpz_divexact(n, n, divisor.get_mpz_t());
-    mpz_submul(offset, n, points.coordinate(o, i));
+    mpz_submul(offset, n, at[i]);
   }
-  const IntegerView w = points.coordinate(o, 3);
-  mpz_gcd(divisor.get_mpz_t(), w, offset);
+  mpz_gcd(divisor.get_mpz_t(), at[3], offset);
   Integer& factor = u_[1];
-  mpz_divexact(factor.get_mpz_t(), w, divisor.get_mpz_t());
+  mpz_divexact(factor.get_mpz_t(), at[3], divisor.get_mpz_t());
   if (divisor > 1) mpz_divexact(offset, offset, divisor.get_mpz_t());
   if (factor > 1) {
     for (Integer& n : n_) mpz_mul(n.get_mpz_t(), n.get_mpz_t(), factor.get_mpz_t());

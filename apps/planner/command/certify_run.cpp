@@ -11,6 +11,7 @@
 #include "apps/planner/command/report.h"
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/rigid/certified_path.h"
+#include "apps/planner/rigid_search/pose_metric.h"
 #include "apps/program/exact_json.h"
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
@@ -51,12 +52,6 @@ void print(const CertifiedPath& path) {
   std::cout << '\n';
 }
 
-Eigen::Quaterniond unit_quaternion(const RigidPose& pose) {
-  const Quaternion& q = pose.quaternion;
-  return Eigen::Quaterniond(nearest_double(q[0]), nearest_double(q[1]), nearest_double(q[2]), nearest_double(q[3]))
-      .normalized();
-}
-
 }  // namespace
 
 json certified_json(const CertifiedPath& path, const std::vector<RigidPose>& poses, const Scene& scene) {
@@ -80,7 +75,7 @@ std::vector<view::Layer> certified_layers(const CertifiedPath& path, std::vector
   std::vector<Eigen::Quaterniond> turns;
   const double reach = checker.robot().nodes().front().reach;
   for (const RigidPose& pose : poses) {
-    Eigen::Quaterniond turn = unit_quaternion(pose);
+    Eigen::Quaterniond turn = PoseMetric::rounded(pose.quaternion);
     if (!turns.empty()) {
       if (turn.dot(turns.back()) < 0) turn.coeffs() *= -1;  // the shorter arc
       lengths.push_back((to_vector(pose.position) - to_vector(points.back())).norm() +

@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "apps/planner/command/findings.h"
-#include "apps/planner/orientation/no_rigid_path.h"
+#include "apps/planner/no_path/no_rigid_path.h"
 #include "apps/planner/proofs/answer_proof.h"
 #include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid/certified_path.h"
@@ -23,17 +23,23 @@ bool same_poses(const std::vector<RigidPose>& a, const std::vector<RigidPose>& b
   });
 }
 
-}  // namespace
-
-void write_path_proof(const Arguments& a, const MotionChecker& checker, const std::vector<RigidPose>& poses,
-                      const CertifiedPath& known) {
-  if (a.proof.empty()) return;
-  const std::optional<PathProof> proof = make_path_proof(checker, poses, known, a.session.monitor);
+void write_known(const Arguments& a, const std::optional<PathProof>& proof) {
   if (proof) {
     write_file(a.proof, proof_text(*proof));
   } else {
     std::cerr << "planner: " << a.proof << " was not written, because the path is undecided\n";
   }
+}
+
+}  // namespace
+
+void write_path_proof(const Arguments& a, const MotionChecker& checker, const std::vector<RigidPose>& poses,
+                      const CertifiedPath& known) {
+  if (!a.proof.empty()) write_known(a, make_path_proof(checker, poses, known, a.session.monitor));
+}
+
+void write_path_proof(const Arguments& a, const MotionChecker& checker, const std::vector<RigidPose>& poses) {
+  if (!a.proof.empty()) write_known(a, make_path_proof(checker, poses, a.session.monitor));
 }
 
 void write_translation_proof(const Arguments& a, const Scene& scene, const FreeSpace* free, const Answer& answer,
@@ -77,9 +83,7 @@ void write_turning_proof(const Arguments& a, const Scene& scene, const TurningAn
   std::vector<RigidPose> poses;
   for (const Pose& pose : answer.path) poses.push_back({pose.position, axis.quaternion(pose.turn)});
   const MotionChecker checker = MotionChecker::of_scene(scene, a.session.monitor);
-  CheckLimits limits;
-  limits.keep_parts = true;
-  write_path_proof(a, checker, poses, certify(checker, poses, MotionTiming::kSlerp, limits));
+  write_path_proof(a, checker, poses);
 }
 
 int tell_check(const Arguments& a, const std::string& title, nlohmann::json found,
@@ -99,7 +103,7 @@ std::optional<int> run_check_proof(const Arguments& a, const Scene& scene) {
   if (!is_proof_text(text)) return std::nullopt;
   const Stopwatch watch;
   const PathProof proof = parse_proof(text, a.check_proof);
-  std::optional<std::string> complaint = complaint_about(proof);
+  std::optional<std::string> complaint = complaint_about(proof, a.session.monitor);
   if (!complaint) complaint = complaint_about(proof.claim, scene);
   if (!complaint && !a.given_path.empty() && !same_poses(proof.claim.path, read_path(a.given_path))) {
     complaint = "it is about another path than " + a.given_path;

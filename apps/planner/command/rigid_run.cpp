@@ -20,15 +20,8 @@ namespace {
 using nlohmann::json;
 
 RigidLimits limits_of(const Arguments& a) {
-  RigidLimits limits;
-  if (a.time && a.app->count("--max-cells") == 0) {
-    limits.max_samples = limits.max_slices = limits.max_boxes = std::numeric_limits<std::uint32_t>::max();
-  } else {
-    limits.max_slices = a.max_cells;
-    limits.max_samples = RigidLimits().max_samples / RigidLimits().max_slices * a.max_cells;
-    limits.max_boxes = RigidLimits().max_boxes / RigidLimits().max_slices * a.max_cells;
-  }
-  return limits;
+  const bool is_given = a.app->count("--max-cells") > 0;
+  return RigidLimits::of(is_given ? std::optional(a.max_cells) : std::nullopt, a.time.has_value());
 }
 
 json rigid_json(const RigidAnswer& answer, const Scene& scene) {
@@ -97,9 +90,7 @@ void write_proof(const Arguments& a, const Scene& scene, const MotionChecker& ch
     const RigidQuestion question = rigid_question_of(scene);
     poses = {answer.status == RigidAnswer::Status::kInvalidStart ? question.start : question.goal};
   }
-  CheckLimits limits;
-  limits.keep_parts = true;
-  write_path_proof(a, checker, poses, certify(checker, poses, MotionTiming::kSlerp, limits));
+  write_path_proof(a, checker, poses);
 }
 
 }  // namespace

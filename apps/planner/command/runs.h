@@ -91,6 +91,8 @@ std::string widest_text(const nlohmann::json& widest);
 /// is none.
 void write_path_proof(const Arguments& a, const MotionChecker& checker, const std::vector<RigidPose>& poses,
                       const CertifiedPath& known);
+/// The same for a path that is not certified yet.
+void write_path_proof(const Arguments& a, const MotionChecker& checker, const std::vector<RigidPose>& poses);
 
 /// Writes the proof of an answer about translations, if --proof asks for it: of its path, or else of the given one, or
 /// that there is none in all of free space, `free`, which else may be null. Throws InputError if there is no proof.

@@ -3,8 +3,8 @@
 // 1. The bounds enclose all positions of the reference point: if the claim has a box, by what that point may be away
 //    from the origin. Without a box, all boxes at the bounds are on the side of what is beyond.
 // 2. A box is blocked: each corner has a point of the obstacle that is inside the inner piece there. Obstacle, inner
-// piece
-//    and box are convex, so all positions of the box have such a point, and the inner piece is in the turned robot.
+//    piece and box are convex, so all positions of the box have such a point, and the inner piece is in the turned
+//    robot.
 // 3. No box on the side of the start has a facet in common with one on that of the goal. A path that meets no blocked
 //    box can be moved off the edges of boxes, so it goes from box to box through facets. So it stays on its side.
 #include <algorithm>
@@ -70,7 +70,8 @@ bool meet_at(const ChartSeam& seam, const PoseBox& a, const PoseBox& b) {
 
 class CellsCheck {
  public:
-  explicit CellsCheck(const PathProof& proof) : claim_(proof.claim), cells_(*proof.cells) {}
+  CellsCheck(const PathProof& proof, const Monitor& monitor)
+      : claim_(proof.claim), cells_(*proof.cells), monitor_(monitor) {}
 
   CellsComplaint run() {
     if (claim_.path.size() != 2) return "the path must be two poses, start and goal";
@@ -125,6 +126,7 @@ class CellsCheck {
   }
 
   CellsComplaint build(BoxNode& node) {
+    monitor_.check_interruption();
     const PathProof::PoseCell& cell = *node.cell;
     node.at_start = cell.kind == Kind::kStart;
     node.at_goal = cell.kind == Kind::kGoal;
@@ -285,6 +287,7 @@ class CellsCheck {
 
   const PathProof::Claim& claim_;
   const PathProof::PoseCells& cells_;
+  const Monitor& monitor_;
   std::optional<Orientations> orientations_;
   std::vector<std::vector<HalfSpace>> robot_;  // seen from the reference point; none for flat pieces
   std::vector<std::vector<HalfSpace>> obstacles_;
@@ -293,6 +296,8 @@ class CellsCheck {
 
 }  // namespace
 
-std::optional<std::string> complaint_about_cells(const PathProof& proof) { return CellsCheck(proof).run(); }
+std::optional<std::string> complaint_about_cells(const PathProof& proof, const Monitor& monitor) {
+  return CellsCheck(proof, monitor).run();
+}
 
 }  // namespace nef::planner

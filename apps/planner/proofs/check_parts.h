@@ -44,7 +44,8 @@ std::optional<std::string> complaint_about_tight(const PathProof& proof, std::si
 std::optional<std::string> complaint_about_barrier(const PathProof& proof);
 
 /// What is wrong with the boxes of poses of a proof, which must have some; nothing if no path of translations and
-/// rotations leads from the first pose to the last. O(n) exact tests for n boxes, and one for each pair of neighbours.
-std::optional<std::string> complaint_about_cells(const PathProof& proof);
+/// rotations leads from the first pose to the last. O(n) exact tests for n boxes, and one for each pair of neighbours;
+/// `monitor` can stop it (Interrupted).
+std::optional<std::string> complaint_about_cells(const PathProof& proof, const Monitor& monitor);
 
 }  // namespace nef::planner

@@ -13,7 +13,7 @@
 #include <map>
 #include <utility>
 
-#include "apps/planner/orientation/no_rigid_path.h"
+#include "apps/planner/orientation/rotation_claim.h"
 #include "apps/planner/proofs/arc_time.h"
 #include "apps/planner/proofs/check_parts.h"
 #include "apps/planner/proofs/path_proof.h"
@@ -72,7 +72,7 @@ using Status = PathProof::Claim::Status;
 
 class PathCheck {
  public:
-  explicit PathCheck(const PathProof& proof) : proof_(proof), claim_(proof.claim) {}
+  PathCheck(const PathProof& proof, const Monitor& monitor) : proof_(proof), claim_(proof.claim), monitor_(monitor) {}
 
   Complaint run() {
     if (Complaint complaint = check_shape()) return complaint;
@@ -86,7 +86,7 @@ class PathCheck {
       case Status::kTight:
         return check_tight();
       default:
-        return claim_.rotations ? complaint_about_cells(proof_) : complaint_about_barrier(proof_);
+        return claim_.rotations ? complaint_about_cells(proof_, monitor_) : complaint_about_barrier(proof_);
     }
   }
 
@@ -251,6 +251,7 @@ class PathCheck {
 
   const PathProof& proof_;
   const PathProof::Claim& claim_;
+  const Monitor& monitor_;
   std::vector<bool> robot_flat_;
   std::vector<bool> obstacle_flat_;
 };
@@ -300,7 +301,7 @@ Complaint compare_rotations(const PathProof::Claim& claim, const Scene& scene) {
 
 }  // namespace
 
-Complaint complaint_about(const PathProof& proof) { return PathCheck(proof).run(); }
+Complaint complaint_about(const PathProof& proof, const Monitor& monitor) { return PathCheck(proof, monitor).run(); }
 
 Complaint complaint_about(const PathProof::Claim& claim, const Scene& scene, const Monitor& monitor) {
   if (claim.contact != scene.contact) return "the scene has a different contact rule";

@@ -188,8 +188,10 @@ std::optional<PathProof> make_barrier_proof(const Scene& scene, const Polyhedron
 std::optional<PathProof> make_tight_proof(const Scene& scene, const FreeSpace& free, const Monitor& monitor = {});
 
 /// What is wrong with a proof; nothing if its claim holds. Everything is rational, and nothing of the search is used:
-/// no doubles, no tree, no hulls. O(parts pieces of the robot times pieces of obstacles).
-std::optional<std::string> complaint_about(const PathProof& proof);
+/// no doubles, no tree, and of hulls and boxes of orientations (orientation_cells.h) only what a proof of no path of a
+/// robot that turns is about. O(parts pieces of the robot times pieces of obstacles); O(n) for n boxes of poses, where
+/// `monitor` can stop it (Interrupted).
+std::optional<std::string> complaint_about(const PathProof& proof, const Monitor& monitor = {});
 
 /// What is different between a claim and a scene; nothing if the claim is about the scene. The pieces are united and
 /// compared with the sets of the scene, exactly. If a pose of the claim is turned, the robot is that in the scene's own

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "apps/planner/rigid/certified_path.h"
+
 namespace nef::planner {
 
 CertifiedTrees::CertifiedTrees(const RigidQuestion& question, const MotionChecker& checker)
@@ -57,10 +59,7 @@ CertifiedTrees::Step CertifiedTrees::extend(Tree& tree, std::size_t from, const 
   const RigidPose next = arrives && arrival != nullptr
                              ? *arrival
                              : metric_.between(tree[from].pose, position, rotation, arrives ? 1 : range_ / away);
-  CheckLimits limits = CheckLimits::for_planners();
-  limits.keep_pose = false;
-  const RigidMotion motion(tree[from].pose, next, MotionTiming::kSlerp);
-  if (checker_.check(motion, limits).status != MotionVerdict::Status::kFree) return Step::kBlocked;
+  if (!moves_freely(checker_, tree[from].pose, next)) return Step::kBlocked;
   add(next, from, tree);
   return arrives ? Step::kArrived : Step::kGone;
 }

@@ -25,11 +25,8 @@ class CertifiedTrees {
   /// MotionTiming::kSlerp. Throws Interrupted when the monitor stops it; it can go on afterwards.
   std::optional<std::vector<RigidPose>> run(std::size_t max_samples, const Monitor& monitor);
 
-  /// How many samples were drawn, and how many poses the trees have.
-  /// @{
+  /// How many samples were drawn.
   [[nodiscard]] std::size_t samples() const { return samples_; }
-  [[nodiscard]] std::size_t poses() const { return trees_[0].size() + trees_[1].size(); }
-  /// @}
 
  private:
   struct Node {

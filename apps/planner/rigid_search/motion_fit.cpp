@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "apps/planner/rigid_search/linear_program.h"
+#include "apps/planner/rigid_search/pose_metric.h"
 
 namespace nef::planner {
 namespace {
@@ -52,8 +53,7 @@ struct MotionFit::Turns {
   explicit Turns(std::span<const Quaternion> rotations) {
     std::optional<Eigen::Quaterniond> last;
     for (const Quaternion& q : rotations) {
-      Eigen::Quaterniond next(nearest_double(q[0]), nearest_double(q[1]), nearest_double(q[2]), nearest_double(q[3]));
-      next.normalize();
+      Eigen::Quaterniond next = PoseMetric::rounded(q);
       if (last && last->dot(next) < 0) next.coeffs() *= -1;
       if (last) times.push_back(Eigen::Quaterniond(last->coeffs() + next.coeffs()).normalized().toRotationMatrix());
       times.push_back(next.toRotationMatrix());

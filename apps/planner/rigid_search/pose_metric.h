@@ -49,6 +49,7 @@ class PoseMetric {
 
   [[nodiscard]] double reach() const { return reach_; }
 
+  /// The quaternion of length 1 in doubles.
   static Eigen::Quaterniond rounded(const Quaternion& q) {
     return Eigen::Quaterniond(nearest_double(q[0]), nearest_double(q[1]), nearest_double(q[2]), nearest_double(q[3]))
         .normalized();

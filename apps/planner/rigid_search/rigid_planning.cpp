@@ -5,9 +5,11 @@
 #include "apps/planner/rigid_search/rigid_planning.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 
 #include "apps/planner/free_space/collision.h"
-#include "apps/planner/orientation/no_rigid_path.h"
+#include "apps/planner/no_path/no_rigid_path.h"
 #include "apps/planner/rigid_search/certified_trees.h"
 #include "apps/planner/rigid_search/shorten_poses.h"
 #include "apps/planner/rigid_search/slice_search.h"
@@ -32,8 +34,7 @@ class RigidPlanning {
                                        std::pair(&question_.goal, RigidAnswer::Status::kInvalidGoal)}) {
       if (checker_.check(*pose).status == MotionVerdict::Status::kFree) continue;
       Scene there = scene_;
-      there.robot =
-          transform(scene_.robot, {rotation_between(pose->quaternion, pose->quaternion), Rational3{}}, monitor_);
+      there.robot = transform(scene_.robot, map_of({Rational3{}, pose->quaternion}), monitor_);
       answer_.collision = find_collision(there, pose->position, monitor_);
       answer_.status = status;
       return std::move(answer_);
@@ -112,9 +113,7 @@ class RigidPlanning {
 
   void count() {
     if (trees_) answer_.samples = trees_->samples();
-    if (slices_ == nullptr) return;
-    answer_.slices = slices_->slices();
-    answer_.rounds = slices_->rounds();
+    if (slices_ != nullptr) answer_.slices = slices_->slices();
   }
 
   const Scene& scene_;
@@ -130,6 +129,18 @@ class RigidPlanning {
 };
 
 }  // namespace
+
+RigidLimits RigidLimits::of(std::optional<std::size_t> max_slices, bool time_is_limited) {
+  RigidLimits limits;
+  if (max_slices) {
+    limits.max_samples = limits.max_samples / limits.max_slices * *max_slices;
+    limits.max_boxes = limits.max_boxes / limits.max_slices * *max_slices;
+    limits.max_slices = *max_slices;
+  } else if (time_is_limited) {
+    limits.max_samples = limits.max_slices = limits.max_boxes = std::numeric_limits<std::uint32_t>::max();
+  }
+  return limits;
+}
 
 RigidAnswer find_rigid_path(const Scene& scene, const MotionChecker& checker, const RigidLimits& limits,
                             const Monitor& monitor) {

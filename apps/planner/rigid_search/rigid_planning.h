@@ -20,6 +20,10 @@ struct RigidLimits {
   std::size_t max_slices = 2000;    ///< exact free spaces at rotations
   std::size_t max_samples = 32000;  ///< random poses
   std::size_t max_boxes = 50000;    ///< boxes of poses in a proof that there is no path
+
+  /// With another number of slices, and of the others in proportion; without a number there are no limits if the time
+  /// is limited.
+  static RigidLimits of(std::optional<std::size_t> max_slices, bool time_is_limited);
 };
 
 /// What is known of a question about a rigid body.
@@ -37,7 +41,6 @@ struct RigidAnswer {
   std::optional<Collision> collision;
   std::size_t samples = 0;  ///< random poses that were drawn
   std::size_t slices = 0;   ///< exact free spaces that were computed
-  unsigned rounds = 0;      ///< of slices that were searched to the end, each finer than the one before
   std::size_t boxes = 0;    ///< boxes of poses in the last attempt to prove that there is no path
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "apps/planner/rigid/certified_path.h"
 #include "apps/planner/rigid_search/pose_metric.h"
 #include "nef/base/interruption.h"
 
@@ -27,10 +28,7 @@ class Shortening {
  private:
   [[nodiscard]] bool is_free(const RigidPose& from, const RigidPose& to) const {
     monitor_.check_interruption();
-    CheckLimits limits = CheckLimits::for_planners();
-    limits.keep_pose = false;
-    const RigidMotion motion(from, to, MotionTiming::kSlerp);
-    return checker_.check(motion, limits).status == MotionVerdict::Status::kFree;
+    return moves_freely(checker_, from, to);
   }
 
   // From each pose to the last one that is reached at once.

@@ -12,7 +12,9 @@
 #include <tuple>
 
 #include "apps/planner/path/path.h"
+#include "apps/planner/rigid/certified_path.h"
 #include "apps/planner/rigid_search/motion_fit.h"
+#include "apps/planner/rigid_search/pose_metric.h"
 #include "apps/planner/rigid_search/rotations.h"
 #include "apps/planner/rigid_search/slices.h"
 
@@ -42,8 +44,8 @@ class SliceSearch::State {
         fit_(checker),
         slices_(scene, monitor),
         ends_{question.start, question.goal},
-        reach_(checker.robot().nodes().front().reach),
-        unit_(std::exp2(std::ilogb(reach_) - 24)) {
+        metric_(checker.robot().nodes().front().reach),
+        reach_(metric_.reach()) {
     for (RigidPose& end : ends_) end.quaternion = canonical(end.quaternion);
   }
 
@@ -73,8 +75,6 @@ class SliceSearch::State {
   }
 
   [[nodiscard]] std::size_t slices() const { return slices_.made(); }
-  [[nodiscard]] std::size_t nodes() const { return nodes_.size(); }
-  [[nodiscard]] unsigned rounds() const { return static_cast<unsigned>(round_); }
 
  private:
   // A component of a slice that is connected with one of the ends.
@@ -282,29 +282,17 @@ class SliceSearch::State {
       if (gap < -reach_ / 64) return {};
     }
     std::vector<RigidPose> poses;
-    for (std::size_t i = 0; i <= parts; ++i) poses.push_back({rounded(positions[i]), rotations[i]});
+    for (std::size_t i = 0; i <= parts; ++i) poses.push_back({metric_.exact(positions[i]), rotations[i]});
     if (node.slice->component_at(poses.front().position) != node.component) return {};
     if (slice.component_at(poses.back().position) != component) return {};
-    CheckLimits limits = CheckLimits::for_planners();
-    limits.keep_pose = false;
     for (std::size_t i = 0; i < parts; ++i) {
-      const MotionVerdict verdict = checker_.check(RigidMotion(poses[i], poses[i + 1], MotionTiming::kSlerp), limits);
-      if (verdict.status != MotionVerdict::Status::kFree) return {};
+      if (!moves_freely(checker_, poses[i], poses[i + 1])) return {};
     }
     return poses;
   }
 
   [[nodiscard]] static Rational3 exact(const Vector3d& p) {
     return {exact_rational(p[0]), exact_rational(p[1]), exact_rational(p[2])};
-  }
-
-  // A multiple of a small unit, so that numbers are short.
-  [[nodiscard]] Rational3 rounded(const Vector3d& p) const {
-    Rational3 result;
-    for (std::size_t k = 0; k < 3; ++k) {
-      result[k] = exact_rational(std::round(p[static_cast<Eigen::Index>(k)] / unit_) * unit_);
-    }
-    return result;
   }
 
   // The nodes from an end to a node, in this order.
@@ -348,8 +336,8 @@ class SliceSearch::State {
   MotionFit fit_;
   Slices slices_;
   std::array<RigidPose, 2> ends_;
+  PoseMetric metric_;
   double reach_;
-  double unit_;
   std::size_t max_slices_ = 0;
   bool is_full_ = false;
   Monitor monitor_;
@@ -373,7 +361,5 @@ std::optional<std::vector<RigidPose>> SliceSearch::run(std::size_t max_slices, c
   return state_->run(max_slices, monitor);
 }
 std::size_t SliceSearch::slices() const { return state_->slices(); }
-std::size_t SliceSearch::nodes() const { return state_->nodes(); }
-unsigned SliceSearch::rounds() const { return state_->rounds(); }
 
 }  // namespace nef::planner

@@ -33,10 +33,6 @@ class SliceSearch {
 
   /// How many slices were made.
   [[nodiscard]] std::size_t slices() const;
-  /// How many components of them are nodes.
-  [[nodiscard]] std::size_t nodes() const;
-  /// The number of the last round whose motions were all tried; 0 if there is none.
-  [[nodiscard]] unsigned rounds() const;
 
  private:
   class State;

@@ -12,8 +12,6 @@ namespace {
 
 constexpr std::size_t kMostPoints = 16;  // of a component
 
-AffineMap rotation_map(const Quaternion& q) { return {rotation_between(q, q), Rational3{}}; }
-
 // The 24 rotations that permute the axes.
 std::vector<Quaternion> rotations_of_cube() {
   std::vector<Quaternion> result{{1, 0, 0, 0}};
@@ -70,7 +68,7 @@ Slices::Slices(const Scene& scene, const Monitor& monitor) : scene_(scene) {
   scene_.goal.reset();
   const auto box = bounding_box(scene_.robot);
   for (const Quaternion& q : rotations_of_cube()) {
-    const Polyhedron turned = transform(scene_.robot, rotation_map(q), monitor);
+    const Polyhedron turned = transform(scene_.robot, map_of({Rational3{}, q}), monitor);
     if (bounding_box(turned) == box && equal(turned, scene_.robot)) symmetries_.push_back(q);
   }
 }
@@ -92,7 +90,7 @@ const Slice& Slices::at(const Quaternion& rotation, const Monitor& monitor) {
 
 Slice Slices::made_at(const Quaternion& rotation, const Monitor& monitor) const {
   Scene turned = scene_;
-  turned.robot = transform(scene_.robot, rotation_map(rotation), monitor);
+  turned.robot = transform(scene_.robot, map_of({Rational3{}, rotation}), monitor);
   Slice slice;
   slice.free = std::make_shared<const FreeSpace>(free_positions(turned, monitor));
   const FreeSpace& free = *slice.free;

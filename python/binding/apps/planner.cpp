@@ -5,7 +5,7 @@
 #include <pybind11/stl.h>
 
 #include "apps/planner/clearance/widest_robot.h"
-#include "apps/planner/orientation/no_rigid_path.h"
+#include "apps/planner/no_path/no_rigid_path.h"
 #include "apps/planner/path/question.h"
 #include "apps/planner/proofs/answer_proof.h"
 #include "apps/planner/proofs/proof_file.h"
@@ -154,14 +154,8 @@ py::dict solve_turning(const plan::Scene& scene, std::size_t max_cells, const py
 
 // A question about a robot that turns freely, from the start of the scene to its goal.
 py::dict solve_rigid(const plan::Scene& scene, const py::object& max_cells, const py::object& seconds) {
-  plan::RigidLimits limits;
-  if (!max_cells.is_none()) {
-    limits.max_samples = limits.max_samples / limits.max_slices * max_cells.cast<std::size_t>();
-    limits.max_boxes = limits.max_boxes / limits.max_slices * max_cells.cast<std::size_t>();
-    limits.max_slices = max_cells.cast<std::size_t>();
-  } else if (!seconds.is_none()) {
-    limits.max_samples = limits.max_slices = limits.max_boxes = std::numeric_limits<std::uint32_t>::max();
-  }
+  const auto limits = plan::RigidLimits::of(
+      max_cells.is_none() ? std::nullopt : std::optional(max_cells.cast<std::size_t>()), !seconds.is_none());
   const plan::RigidAnswer answer = call(kSmallCall, [=, time = time_of(seconds)](const Monitor& monitor) {
     const TimeLimit limit(time, monitor);
     const auto checker = plan::MotionChecker::of_scene(scene, monitor);
@@ -312,7 +306,7 @@ py::object prove_no_path(const plan::Scene& scene) {
 py::object complaint_about(const plan::Scene& scene, const std::string& text) {
   const plan::PathProof proof = plan::parse_proof(text, "the proof");
   const std::optional<std::string> found = call(kSmallCall, [scene, proof](const Monitor& monitor) {
-    const std::optional<std::string> complaint = plan::complaint_about(proof);
+    const std::optional<std::string> complaint = plan::complaint_about(proof, monitor);
     return complaint ? complaint : plan::complaint_about(proof.claim, scene, monitor);
   });
   return found ? py::object(py::str(*found)) : py::none();

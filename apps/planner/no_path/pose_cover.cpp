@@ -2,7 +2,7 @@
 //
 // The pair that overlaps deepest in the middle of a part decides how it is halved: across a coordinate or across an
 // orientation, whichever loses more of that depth over the part, and along that the axis whose halves lose least.
-#include "apps/planner/orientation/pose_cover.h"
+#include "apps/planner/no_path/pose_cover.h"
 
 #include <algorithm>
 #include <cmath>

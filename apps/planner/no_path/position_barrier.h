@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "apps/planner/orientation/blocking_pairs.h"
-#include "apps/planner/orientation/pose_cover.h"
+#include "apps/planner/no_path/blocking_pairs.h"
+#include "apps/planner/no_path/pose_cover.h"
 #include "apps/planner/proofs/path_proof.h"
 #include "nef/base/monitor.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Minimum cuts against all sets of nodes.
-#include "apps/planner/orientation/minimum_cut.h"
+#include "apps/planner/no_path/minimum_cut.h"
 
 #include <catch2/catch.hpp>
 #include <random>

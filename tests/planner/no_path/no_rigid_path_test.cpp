@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Proofs that a robot that turns has no path: where there is none, and never where a path is known.
-#include "apps/planner/orientation/no_rigid_path.h"
+#include "apps/planner/no_path/no_rigid_path.h"
 
 #include <catch2/catch.hpp>
 #include <string>
 
+#include "apps/planner/orientation/rotation_claim.h"
 #include "apps/planner/proofs/proof_file.h"
 #include "nef/base/error.h"
 #include "tests/planner/scene_helpers.h"

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // 1. Boxes of positions are judged by sample orientations: if the middle is blocked at each of them, all orientations
-// may
-//    be, and the less deep pieces overlap there, the more parts it takes to show it.
+//    may be, and the less deep pieces overlap there, the more parts it takes to show it.
 // 2. The minimum cut between start and goal in the graph of boxes is the barrier that seems to be cheapest. Boxes of it
-// of
-//    which only a part is blocked are halved; when there are none left, its boxes are covered exactly (pose_cover.h).
+//    of which only a part is blocked are halved; when there are none left, its boxes are covered exactly
+//    (pose_cover.h).
 // 3. A pose that turns out to be open is one more sample, so that other boxes are judged better, and the cut is made
 //    anew, until all of its boxes are covered.
-#include "apps/planner/orientation/position_barrier.h"
+#include "apps/planner/no_path/position_barrier.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "apps/planner/orientation/minimum_cut.h"
+#include "apps/planner/no_path/minimum_cut.h"
 #include "nef/base/error.h"
 #include "nef/geometry/vectors.h"
 

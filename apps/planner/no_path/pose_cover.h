@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "apps/planner/orientation/blocking_pairs.h"
+#include "apps/planner/no_path/blocking_pairs.h"
 #include "nef/base/monitor.h"
 
 namespace nef::planner {

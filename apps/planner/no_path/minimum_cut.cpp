@@ -3,7 +3,7 @@
 // Each node becomes an arc from its entrance (2 v) to its exit (2 v + 1) that carries its weight; arcs between nodes
 // carry anything. The flow is sent along shortest ways, level by level (Dinic, Soviet Math. Doklady 1970). In the end
 // the nodes whose entrance can still be reached and whose exit cannot are the cut.
-#include "apps/planner/orientation/minimum_cut.h"
+#include "apps/planner/no_path/minimum_cut.h"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 // A pair overlaps at a position x if a point y is in the obstacle's half-spaces o y <= d, and y - x in those of the
 // inner piece, m (y - x) <= c. How deep it does is the largest s with m (y - x) + |m| s <= c and o y + s / 10 <= d, so
 // that y may be rounded to short numbers.
-#include "apps/planner/orientation/blocking_pairs.h"
+#include "apps/planner/no_path/blocking_pairs.h"
 
 #include <algorithm>
 #include <cmath>

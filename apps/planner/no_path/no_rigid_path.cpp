@@ -2,20 +2,17 @@
 //
 // A barrier is looked for with the middle of the robot's box as the reference point first, so that turning moves the
 // robot as little as can be, then with the middles of its pieces.
-#include "apps/planner/orientation/no_rigid_path.h"
+#include "apps/planner/no_path/no_rigid_path.h"
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
-#include "apps/planner/orientation/position_barrier.h"
+#include "apps/planner/no_path/position_barrier.h"
+#include "apps/planner/orientation/rotation_claim.h"
 #include "apps/planner/rigid/certified_path.h"
-#include "apps/planner/rigid/rigid_question.h"
-#include "apps/planner/turning/turning_question.h"
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
 #include "nef/geometry/vectors.h"
-#include "nef/number/floor.h"
 
 namespace nef::planner {
 namespace {
@@ -101,7 +98,7 @@ NoPathAnswer prove_no_rigid_path(const MotionChecker& checker, const RigidPose& 
       answer.in_question = barrier.in_question();
       if (!found) continue;
       proof.cells = barrier.written();
-      if (complaint_about(proof)) continue;
+      if (complaint_about(proof, monitor)) continue;
       answer.proof = std::move(proof);
       answer.in_question = 0;
       break;
@@ -110,31 +107,6 @@ NoPathAnswer prove_no_rigid_path(const MotionChecker& checker, const RigidPose& 
     return answer;
   }
   return answer;
-}
-
-RotationClaim rotation_claim_of(const Scene& scene) {
-  if (scene.turns_freely) {
-    const RigidQuestion question = rigid_question_of(scene);
-    return {question.start, question.goal, {}};
-  }
-  const TurningQuestion question = question_of(scene);
-  if (question.high - question.low > 4) {
-    throw InputError("angles in a range wider than a full turn have no proof of this kind");
-  }
-  std::set<Turn> turns{question.low, question.high, question.start.turn, question.goal.turn};
-  for (Integer quarter = ceiling_of(question.low); Turn(quarter) < question.high; ++quarter)
-    turns.insert(Turn(quarter));
-  RotationClaim result{{question.start.position, question.axis.quaternion(question.start.turn)},
-                       {question.goal.position, question.axis.quaternion(question.goal.turn)},
-                       {}};
-  for (const Turn& turn : turns) {
-    Quaternion q = question.axis.quaternion(turn);
-    if (!result.chain.empty() && scalar_product(q, result.chain.back()) < 0) {
-      for (Rational& x : q) x = -x;
-    }
-    result.chain.push_back(q);
-  }
-  return result;
 }
 
 NoPathAnswer prove_no_rigid_path(const Scene& scene, const NoPathLimits& limits, const Monitor& monitor) {

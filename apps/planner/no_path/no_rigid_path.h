@@ -41,19 +41,6 @@ NoPathAnswer prove_no_rigid_path(const MotionChecker& checker, const RigidPose& 
                                  const std::vector<Quaternion>& chain, const NoPathLimits& limits = {},
                                  const Monitor& monitor = {});
 
-/// What a claim about a scene whose robot turns is about.
-struct RotationClaim {
-  RigidPose start;
-  RigidPose goal;
-  std::vector<Quaternion> chain;  ///< as above
-};
-
-/// That of a scene whose robot turns freely (the poses are those of the robot in its own file), or about one axis: then
-/// the chain has the ends of the range, start, goal, and each quarter turn. Throws InputError if the robot does not
-/// turn, start or goal is missing, or the range is wider than a full turn: angles that differ by one are different
-/// then, and quaternions are not.
-RotationClaim rotation_claim_of(const Scene& scene);
-
 /// The same for the question of a scene.
 NoPathAnswer prove_no_rigid_path(const Scene& scene, const NoPathLimits& limits = {}, const Monitor& monitor = {});
 

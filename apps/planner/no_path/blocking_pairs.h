@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "apps/planner/free_space/vectors.h"
+#include "apps/planner/no_path/small_program.h"
 #include "apps/planner/orientation/orientation_cells.h"
-#include "apps/planner/orientation/small_program.h"
 #include "apps/planner/proofs/path_proof.h"
 
 namespace nef::planner {

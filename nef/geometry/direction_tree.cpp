@@ -75,59 +75,46 @@ bool near_centre(Cut cut, double size) {
 
 using Corner = std::array<double, 2>;
 
-// The sides of a polygon, to be asked about many boxes and polygons. Corners are off by half of kSlack; coordinates are
-// at most 1 + 2^-15, so what is rounded here is 2^-49 of the side at most, much less than the other half.
-class Sides {
- public:
-  explicit Sides(std::span<const Corner> polygon) {
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Corner& p = polygon[i];
-      const Corner& q = polygon[i + 1 == polygon.size() ? 0 : i + 1];
-      Side& side = sides_[count_++];
-      side.normal = {p[1] - q[1], q[0] - p[0]};
-      const double slack = 2 * kSlack * (std::fabs(side.normal[0]) + std::fabs(side.normal[1]));
-      side.low = HUGE_VAL;
-      side.high = -HUGE_VAL;
-      for (const Corner& corner : polygon) {
-        const double at = side.normal[0] * corner[0] + side.normal[1] * corner[1];
-        side.low = std::min(side.low, at - slack);
-        side.high = std::max(side.high, at + slack);
-      }
+// A side of a polygon, and the range of the polygon across it, with slack: corners are off by half of kSlack;
+// coordinates are at most 1 + 2^-15, so what is rounded here is 2^-49 of the side at most, much less than the other
+// half.
+struct Side {
+  Corner normal{};
+  double low = HUGE_VAL;
+  double high = -HUGE_VAL;
+
+  Side() = default;
+  Side(std::span<const Corner> polygon, std::size_t i) {
+    const Corner& p = polygon[i];
+    const Corner& q = polygon[i + 1 == polygon.size() ? 0 : i + 1];
+    normal = {p[1] - q[1], q[0] - p[0]};
+    for (const Corner& corner : polygon) {
+      low = std::min(low, at(corner));
+      high = std::max(high, at(corner));
     }
+    const double slack = 2 * kSlack * (std::fabs(normal[0]) + std::fabs(normal[1]));
+    low -= slack;
+    high += slack;
   }
 
-  // True if a line along a side surely has the polygon and the box on either side.
-  [[nodiscard]] bool separate(const Box& box) const {
-    return std::any_of(sides_.begin(), sides_.begin() + count_, [&box](const Side& side) {
-      double low = 0;
-      double high = 0;
-      for (std::size_t k = 0; k < 2; ++k) {
-        const double n = side.normal[k];
-        low += n * (n > 0 ? box.low[k] : box.high[k]);
-        high += n * (n > 0 ? box.high[k] : box.low[k]);
-      }
-      return low > side.high || high < side.low;
-    });
+  // True if a line along the side surely has the polygon and a box, or another polygon, on either side.
+  [[nodiscard]] bool separates(const Box& box) const {
+    double least = 0;
+    double most = 0;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const double n = normal[k];
+      least += n * (n > 0 ? box.low[k] : box.high[k]);
+      most += n * (n > 0 ? box.high[k] : box.low[k]);
+    }
+    return least > high || most < low;
   }
-
-  // True if one surely has this polygon and another one on either side.
-  [[nodiscard]] bool separate(std::span<const Corner> polygon) const {
-    return std::any_of(sides_.begin(), sides_.begin() + count_, [polygon](const Side& side) {
-      const auto is_beyond = [&](auto&& beyond) { return std::all_of(polygon.begin(), polygon.end(), beyond); };
-      const auto at = [&](const Corner& c) { return side.normal[0] * c[0] + side.normal[1] * c[1]; };
-      return is_beyond([&](const Corner& c) { return at(c) > side.high; }) ||
-             is_beyond([&](const Corner& c) { return at(c) < side.low; });
-    });
+  [[nodiscard]] bool separates(std::span<const Corner> polygon) const {
+    return std::all_of(polygon.begin(), polygon.end(), [&](const Corner& c) { return at(c) > high; }) ||
+           std::all_of(polygon.begin(), polygon.end(), [&](const Corner& c) { return at(c) < low; });
   }
 
  private:
-  struct Side {
-    Corner normal{};
-    double low = 0;  // the range of the polygon across the side, and the slack
-    double high = 0;
-  };
-  std::array<Side, 12> sides_;
-  std::ptrdiff_t count_ = 0;
+  [[nodiscard]] double at(const Corner& c) const { return normal[0] * c[0] + normal[1] * c[1]; }
 };
 
 }  // namespace
@@ -152,6 +139,9 @@ std::optional<DirectionTree::Seen> DirectionTree::seen(std::span<const Double3> 
     const std::size_t b = (a + 1) % 3;
     const std::size_t c = (a + 2) % 3;
     const double s = face % 2 == 0 ? 1.0 : -1.0;
+    // Behind the centre, where no point of the pyramid is near.
+    const std::span<const Double3> all = std::span(whole.corners).first(whole.count);
+    if (std::all_of(all.begin(), all.end(), [&](const Double3& p) { return s * p[a] < 0; })) continue;
     Cut cut = whole;
     for (const std::size_t other : {b, c}) {
       for (const double sign : {1.0, -1.0}) {
@@ -205,14 +195,22 @@ bool DirectionTree::find(std::span<const Double3> polygon, std::vector<std::uint
     const Shape& shape = (*seen)[k];
     const Face& face = faces_[k];
     if (shape.count == 0) continue;
-    const Sides sides(shape.polygon());
-    const auto meets = [&](const Box& box) { return shape.box.overlaps(box) && !sides.separate(box); };
+    const std::span<const Corner> corners = shape.polygon();
+    std::array<Side, 12> room;
+    const std::span<Side> sides = std::span(room).first(corners.size());
+    for (std::size_t i = 0; i < sides.size(); ++i) sides[i] = Side(corners, i);
+    const auto separate = [&](const auto& other) {
+      return std::any_of(sides.begin(), sides.end(), [&](const Side& side) { return side.separates(other); });
+    };
+    const auto meets = [&](const Box& box) { return shape.box.overlaps(box) && !separate(box); };
     face.tree.for_each_if(meets, [&](std::uint32_t i) {
       const std::span<const Corner> other =
           std::span(face.corners).subspan(face.corner_begin[i], face.corner_begin[i + 1] - face.corner_begin[i]);
-      if (!sides.separate(other) && !Sides(other).separate(shape.polygon())) {
-        items.push_back(face.item_of[i]);
+      if (separate(other)) return;
+      for (std::size_t side = 0; side < other.size(); ++side) {
+        if (Side(other, side).separates(corners)) return;
       }
+      items.push_back(face.item_of[i]);
     });
   }
   return true;

@@ -333,8 +333,10 @@ class WideStars {
   void join(std::uint32_t p, std::uint32_t s) {
     Star& star = stars_[s];
     const auto sees = [&](std::span<const Double3> polygon) { return star.directions.sees(polygon); };
-    if (!each_seen(p, star.centre, sees)) return;
-    each_seen(p, star.centre, [&](std::span<const Double3> polygon) { return star.directions.add(p, polygon); });
+    const auto add = [&](std::span<const Double3> polygon) { return star.directions.add(p, polygon); };
+    // All triangles or none: of several it is asked first.
+    if (layout_.patches[p].size() > 1 && !each_seen(p, star.centre, sees)) return;
+    if (!each_seen(p, star.centre, add)) return;
     star_of_[p] = s;
     star.members.push_back(p);
     star.box.add(boxes_[p]);

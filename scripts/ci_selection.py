@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """What .ci/run looks at: what is due, what changed since its last green run, and as much of the rest as there is time for.
 
-A run may leave out what it has no time for, but not for long: what two runs in a row have left out is due. Due items come
-first, and a run that does not reach all of them fails. So nothing stays unseen for more than two runs. Who was left out how
-often stands in build/ci-unseen.json. A fresh clone has no such file; there, the number n of commits in the history of HEAD
-takes its place: the items fall into three parts, and part n mod 3 is due. So three fresh
-clones of successive commits see everything between them. (Fresh clones of every third commit only would see the same part
-each time: keep build/ci-unseen.json between runs there.) Nothing depends on the clock but how much fits.
+A run may leave out what it has no time for, but not for long: what three runs in a row have left out is due. Due items come
+first, and a run that does not reach all of them fails. So nothing stays unseen for more than three runs. Who was left out
+how often stands in build/ci-unseen.json. A fresh clone has no such file; there, the number of commits in the history of HEAD
+takes its place: the items fall into four quarters, and one is due, the next one with each commit. So four fresh clones of
+successive commits see everything between them. (Fresh clones of every fourth commit only would see the same quarter each
+time: keep build/ci-unseen.json between runs there.) Nothing depends on the clock but how much fits.
 
 The last green run is, in this order: the commit in NEF_CI_BASE, the commit that a green run left in build/ci-green, or,
 in a fresh clone, which knows no runs, the state before the last commits (HISTORY of them).
@@ -26,7 +26,8 @@ from collections.abc import Callable
 HISTORY = 25
 RECORD = "build/ci-green"
 UNSEEN = "build/ci-unseen.json"  # item: how many runs in a row have left it out
-DUE = 2  # so many, and the next run does not
+DUE = 3  # so many, and the next run does not
+QUARTERS = DUE + 1
 
 
 def git(*arguments: str) -> str:
@@ -77,16 +78,16 @@ def record(runs: dict[str, int]) -> None:
 
 class Choice:
     """The items of a run in their order, all of which count as left out until `end` is called. An item is known from run to
-    run by its parts. Where no run is known of, `third` of its first part, modulo 3, tells in which third it is."""
+    run by its parts. Where no run is known of, `quarter` of its first part, modulo 4, tells in which quarter it is."""
 
-    def __init__(self, items: dict[str, list[str]], first: set[str], third: Callable[[str], int]) -> None:
+    def __init__(self, items: dict[str, list[str]], first: set[str], quarter: Callable[[str], int]) -> None:
         self.items = items
         known = recorded()
         commits = int(git("rev-list", "--count", "HEAD") or 0)
         age = {}
         for item, parts in items.items():
             runs = [known[part] for part in parts if part in known]
-            age[item] = max(runs) if runs else (third(min(parts)) - commits) % 3
+            age[item] = max(runs) if runs else (quarter(min(parts)) - commits) % QUARTERS
         self.due = {item for item in items if age[item] >= DUE}
         # All that are due, then those of `first`, then the others, each group from what was left out most often.
         self.order = sorted(items, key=lambda item: (item not in self.due, item not in first, -age[item],
@@ -105,7 +106,7 @@ class Choice:
 
 def look_at(items: dict[str, list[str]], first: set[str], seconds: float, look: Callable[[str], bool]) -> bool:
     """Looks at items in the order of a Choice, on all cores, and begins none when so many seconds are over. `look(item)` tells
-    whether it came to an end. Returns whether nothing was left out that was due. Thirds have equally many items."""
+    whether it came to an end. Returns whether nothing was left out that was due. Quarters have equally many items."""
     numbers = {min(items[item]): number for number, item in enumerate(sorted(items))}
     choice = Choice(items, first, numbers.__getitem__)
     end = time.monotonic() + seconds

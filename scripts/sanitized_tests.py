@@ -21,11 +21,11 @@ import zlib
 import ci_selection
 
 LIMIT = 900  # seconds; a case that takes longer has failed
-PARTS = 3
-LONG = {"test_planner", "test_visual_hull"}  # in parts, one in each third
-# The other programs, so that thirds take about equally long.
-THIRDS = [{"test_nef_mpi", "test_command", "test_query"}, {"test_minkowski", "test_core", "test_laws"},
-          {"test_tiles", "test_io", "test_view", "test_remeshing"}]
+PARTS = ci_selection.QUARTERS
+LONG = {"test_planner", "test_visual_hull"}  # in parts, one in each quarter
+# The other programs, so that quarters take about equally long.
+QUARTERS = [{"test_nef_mpi", "test_command", "test_query", "test_laws"}, {"test_minkowski"}, {"test_core"},
+            {"test_tiles", "test_io", "test_view", "test_remeshing"}]
 
 
 def cases(program: str) -> list[str]:
@@ -59,10 +59,12 @@ def program_of(item: str) -> str:
     return item.split()[0]
 
 
-def third(item: str) -> int:
-    """In which third of the items one is."""
+def quarter(item: str) -> int:
+    """In which quarter of the items one is."""
     program = program_of(item)
-    return items(program).index(item) if program in LONG else next((i for i, group in enumerate(THIRDS) if program in group), 0)
+    if program in LONG:
+        return items(program).index(item)
+    return next((i for i, group in enumerate(QUARTERS) if program in group), 0)
 
 
 def cases_of(item: str, build: str) -> list[str]:
@@ -70,7 +72,7 @@ def cases_of(item: str, build: str) -> list[str]:
     listed = cases(f"{build}/bin/{program}")
     if program not in LONG:
         return listed
-    return [case for case in listed if zlib.crc32(case.encode()) % PARTS == third(item)]
+    return [case for case in listed if zlib.crc32(case.encode()) % PARTS == quarter(item)]
 
 
 def names(build: str) -> list[str]:
@@ -90,7 +92,8 @@ def main() -> int:
     concerned = {program for program in programs
                  if "nef/" in folders(program) or any(file.startswith(folders(program)) for file in files)}
     every = [item for program in programs for item in items(program)]
-    choice = ci_selection.Choice({item: [item] for item in every}, {item for item in every if program_of(item) in concerned}, third)
+    choice = ci_selection.Choice({item: [item] for item in every}, {item for item in every if program_of(item) in concerned},
+                                 quarter)
     failed = []
     printing = threading.Lock()
 

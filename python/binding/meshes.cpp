@@ -74,8 +74,8 @@ Mesh mesh_from_arrays(py::handle vertices, py::handle faces) {
     push_array(py::reinterpret_borrow<py::array>(faces), mesh);
     return mesh;
   }
-  for (const py::handle face : py::reinterpret_borrow<py::object>(faces)) {
-    for (const py::handle index : py::reinterpret_borrow<py::object>(face)) {
+  for (const py::handle face : to_items(faces, "faces")) {
+    for (const py::handle index : to_items(face, "each face")) {
       mesh.corners.push_back(vertex_number(index_of(index), mesh.face_count(), mesh.vertices.size()));
     }
     mesh.face_begin.push_back(static_cast<std::uint32_t>(mesh.corners.size()));

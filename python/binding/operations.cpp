@@ -14,9 +14,9 @@
 namespace nef::python {
 AffineMap map_from(py::handle matrix) {
   std::vector<std::vector<Rational>> rows;
-  for (const py::handle row : py::reinterpret_borrow<py::object>(matrix)) {
+  for (const py::handle row : to_items(matrix, "a matrix")) {
     std::vector<Rational>& numbers = rows.emplace_back();
-    for (const py::handle number : py::reinterpret_borrow<py::object>(row)) numbers.push_back(to_rational(number));
+    for (const py::handle number : to_items(row, "each row of a matrix")) numbers.push_back(to_rational(number));
     if (numbers.size() != 3 && numbers.size() != 4) rows.resize(5);
     if (rows.size() > 4) break;
   }

@@ -54,8 +54,12 @@ def _indices(faces):
         if faces.ndim != 2:
             raise InputError(f"faces must be an array of shape (M, K) or a list of lists of indices, not of shape {faces.shape}")
         return faces
-    faces = list(faces)
-    if faces and len({len(face) for face in faces}) == 1:
+    try:
+        faces = list(faces)
+        sizes = {len(face) for face in faces}
+    except TypeError:
+        return faces  # the error of what follows names what is no list
+    if len(sizes) == 1:
         array = numpy.asarray(faces)
         if array.dtype.kind in "iu":
             return array
@@ -110,7 +114,7 @@ def _vertices_and_faces(vertices, faces):
         vertices, faces = _arrays_of(vertices)
     else:
         faces = _indices(faces)
-    return vertices if isinstance(vertices, numpy.ndarray) else list(vertices), faces
+    return vertices, faces
 
 
 def _with_offset(mesh, offset):

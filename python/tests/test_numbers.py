@@ -42,6 +42,19 @@ def test_what_is_no_point(point):
         nef.point(point)
 
 
+@pytest.mark.parametrize(("call", "name"), [
+    (lambda: nef.from_mesh(1, 2), "vertices"),
+    (lambda: nef.from_mesh(CORNERS, 2), "faces"),
+    (lambda: nef.from_mesh(CORNERS, [1, 2]), "each face"),
+    (lambda: nef.hull(1), "points"),
+    (lambda: nef.point((0, 0, 0)).transform(3), "a matrix"),
+    (lambda: nef.point((0, 0, 0)).transform([1, 2, 3]), "each row of a matrix"),
+])
+def test_what_is_no_list_is_named(call, name):
+    with pytest.raises(TypeError, match=f"^{name} must be a list or an array, not int$"):
+        call()
+
+
 CORNERS = [[0, 0, 0], [3, 0, 0], [0, 3, 0], [0, 0, 3]]
 
 

@@ -11,6 +11,7 @@
 #include "apps/planner/rigid/motion_checker.h"
 #include "apps/planner/turning/turning_collision.h"
 #include "tests/planner/scene_helpers.h"
+#include "tests/support/fixed_cases.h"
 
 namespace nef::planner::test::magnitudes {
 namespace {
@@ -93,7 +94,7 @@ TEST_CASE("planner at any magnitude: poses and motions that turn freely", "[boun
   limits.depth = 2;
   std::vector<Case> cases;
   int collisions = 0;
-  for (int i = 0; i < 12; ++i) {
+  for (unsigned i = 0; i < nef::test::fewer(12); ++i) {
     Case c{pose(), pose(), false, Status::kFree};
     c.collides = checker.check(c.from).status == Status::kCollides;
     c.motion = checker.check(RigidMotion(c.from, c.to), limits).status;
@@ -130,7 +131,7 @@ TEST_CASE("planner at any magnitude: poses and motions that turn about an axis",
   };
   std::vector<Case> cases;
   int count = 0;
-  for (int i = 0; i < 12; ++i) {
+  for (unsigned i = 0; i < nef::test::fewer(12); ++i) {
     Case c{{random.point(4), random.between(0, 4)}, {random.point(4), 0}, false, false, false};
     c.to.turn = c.from.turn;
     c.free = collision.is_free(c.from);

@@ -6,6 +6,7 @@
 
 #include "apps/minkowski/minkowski.h"
 #include "nef/construct/construct.h"
+#include "tests/support/fixed_cases.h"
 
 namespace nef::planner::test {
 
@@ -49,7 +50,7 @@ std::string independent_complaint(const Scene& scene, const Polyhedron& free, co
 
 unsigned seeds(unsigned few) {
   const char* text = std::getenv("PLANNER_SEEDS");
-  return text == nullptr ? few : few * static_cast<unsigned>(std::strtoul(text, nullptr, 10));
+  return nef::test::fewer(text == nullptr ? few : few * static_cast<unsigned>(std::strtoul(text, nullptr, 10)));
 }
 
 Rational small_number(std::mt19937& random, int low, int high, int denominator) {

@@ -64,7 +64,8 @@ std::vector<int> component_dimensions(const FreeSpace& free);
 /// the swept robot (an exact Minkowski sum) meets no obstacle in its interior. Returns what is wrong, or nothing.
 std::string independent_complaint(const Scene& scene, const Polyhedron& free, const ExactPath& path, bool sweep);
 
-/// How many random cases of a kind to try: `few`, times PLANNER_SEEDS in the environment, which .ci/run asks for.
+/// How many random cases of a kind to try: `few`, times PLANNER_SEEDS in the environment, which .ci/run
+/// asks for; a fifth of them under the sanitizers.
 unsigned seeds(unsigned few);
 
 }  // namespace nef::planner::test

@@ -118,10 +118,18 @@ py::tuple from_triple(const Rational3& triple) {
   return py::make_tuple(to_fraction(triple[0]), to_fraction(triple[1]), to_fraction(triple[2]));
 }
 
+py::iterable to_items(py::handle items, const char* what) {
+  if (!py::isinstance<py::iterable>(items)) {
+    throw py::type_error(std::string(what) + " must be a list or an array, not " + Py_TYPE(items.ptr())->tp_name);
+  }
+  return py::reinterpret_borrow<py::iterable>(items);
+}
+
 std::array<Rational3, 2> to_corners(py::handle box) {
   std::vector<Rational3> corners;
-  for (const py::handle corner : py::reinterpret_borrow<py::object>(box))
+  for (const py::handle corner : to_items(box, "a box of two corners")) {
     corners.push_back(to_triple(corner, "a corner"));
+  }
   if (corners.size() != 2) throw InputError("a box needs two corners, not " + std::to_string(corners.size()));
   return {corners[0], corners[1]};
 }
@@ -157,8 +165,7 @@ std::vector<Rational3> to_points(py::handle points, const char* what) {
   }
   std::vector<Rational3> result;
   const std::string each = "each row of " + std::string(what);
-  for (const py::handle row : py::reinterpret_borrow<py::object>(points))
-    result.push_back(to_triple(row, each.c_str()));
+  for (const py::handle row : to_items(points, what)) result.push_back(to_triple(row, each.c_str()));
   return result;
 }
 

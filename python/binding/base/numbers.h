@@ -33,6 +33,9 @@ Rational3 to_triple(py::handle triple, const char* what);
 /// A tuple of three Fractions.
 py::tuple from_triple(const Rational3& triple);
 
+/// A list, an array or a generator, to go through. Throws TypeError for anything else; `what` names it there: "points".
+py::iterable to_items(py::handle items, const char* what);
+
 /// Two corners of a box, which are three numbers each. Throws InputError for anything else.
 std::array<Rational3, 2> to_corners(py::handle box);
 

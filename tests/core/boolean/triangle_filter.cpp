@@ -8,6 +8,7 @@
 #include <random>
 
 #include "nef/base/fast_path.h"
+#include "tests/support/fixed_cases.h"
 #include "tests/support/magnitudes.h"
 
 namespace nef::test {
@@ -46,7 +47,7 @@ bool says_miss(const std::array<Rational3, 5>& points, const Rational& scale) {
 
 TEST_CASE("a line through the border of a triangle is never said to miss it", "[bounds]") {
   Lines lines(1);
-  for (int i = 0; i < 20000; ++i) {
+  for (unsigned i = 0; i < test::fewer(20000); ++i) {
     const unsigned bits = 4 + static_cast<unsigned>(lines.below(50));
     // Small triangles far from the origin are where coordinates are known worst.
     const Rational3 far = lines.point(bits);

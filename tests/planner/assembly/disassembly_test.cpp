@@ -13,6 +13,7 @@
 #include "apps/planner/assembly/free_directions.h"
 #include "apps/program/exact_json.h"
 #include "tests/planner/command_helpers.h"
+#include "tests/support/fixed_cases.h"
 #include "tests/support/report_shape.h"
 
 namespace nef::planner::test {
@@ -142,7 +143,7 @@ Assembly assembly_of(const std::vector<Cells>& cells) {
 
 TEST_CASE("the cone of free directions holds what a small step shows to be free") {
   std::set<int> dimensions;
-  for (unsigned seed = 100; seed < 120; ++seed) {
+  for (unsigned seed = 100; seed < 100 + nef::test::fewer(20); ++seed) {
     INFO("seed " << seed);
     const Assembly assembly = assembly_of(random_cells(seed, 3));
     const FreeDirections free = free_directions(assembly, 1);
@@ -172,7 +173,7 @@ TEST_CASE("the cone of free directions holds what a small step shows to be free"
 TEST_CASE("assemblies of unit cubes come apart iff a search on the lattice through all sets of parts says so") {
   int stuck = 0;
   int planned = 0;
-  for (unsigned seed = 0; seed < 48; ++seed) {
+  for (unsigned seed = 0; seed < nef::test::fewer(48); ++seed) {
     INFO("seed " << seed);
     std::vector<Cells> cells = random_cells(seed, seed < 40 ? 2 + seed % 3 : 5 + seed % 4);
     std::erase_if(cells, [](const Cells& part) { return part.empty(); });
@@ -189,7 +190,7 @@ TEST_CASE("assemblies of unit cubes come apart iff a search on the lattice throu
 }
 
 TEST_CASE("minimal closed sets are those that a search through all sets finds") {
-  for (unsigned seed = 0; seed < 200; ++seed) {
+  for (unsigned seed = 0; seed < nef::test::fewer(200); ++seed) {
     std::mt19937 random(seed);
     BlockingGraph graph(1 + random() % 6);
     for (std::size_t i = 0; i < graph.size(); ++i) {

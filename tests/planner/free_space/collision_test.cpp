@@ -6,6 +6,7 @@
 
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
+#include "tests/support/fixed_cases.h"
 
 namespace nef::planner::test {
 namespace {
@@ -50,7 +51,7 @@ void check_collision(const Scene& scene, const Collision& collision, const Ratio
 
 TEST_CASE("a position is free or hits something, for robots and obstacles of mixed dimension") {
   std::size_t hits = 0;
-  for (unsigned seed = 0; seed < 60; ++seed) {
+  for (unsigned seed = 0; seed < nef::test::fewer(60); ++seed) {
     INFO("seed " << seed);
     std::mt19937 random(seed);
     Scene scene = random_sets(random);

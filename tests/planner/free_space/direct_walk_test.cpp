@@ -8,12 +8,13 @@
 
 #include "apps/planner/free_space/segments.h"
 #include "tests/planner/scene_helpers.h"
+#include "tests/support/fixed_cases.h"
 
 namespace nef::planner::test {
 namespace {
 
 TEST_CASE("a segment's cells are the same with and without the partition of space, and so says point location") {
-  for (unsigned seed = 0; seed < 30; ++seed) {
+  for (unsigned seed = 0; seed < nef::test::fewer(30); ++seed) {
     INFO("seed " << seed);
     const FreeSpace direct(degenerate_set(seed));
     const FreeSpace by_tree(direct.set());

@@ -7,6 +7,7 @@
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/ompl/translation_planning.h"
 #include "tests/planner/scene_helpers.h"
+#include "tests/support/fixed_cases.h"
 
 namespace nef::planner::test {
 namespace {
@@ -22,7 +23,7 @@ Polyhedron random_obstacle(std::mt19937& random) {
 }
 
 TEST_CASE("free positions after obstacles came, went and moved are those of a new start") {
-  for (unsigned seed = 0; seed < 24; ++seed) {
+  for (unsigned seed = 0; seed < nef::test::fewer(24); ++seed) {
     INFO("seed " << seed);
     std::mt19937 random(seed);
     Scene scene;

@@ -7,6 +7,7 @@
 
 #include "apps/minkowski/minkowski.h"
 #include "tests/planner/scene_helpers.h"
+#include "tests/support/fixed_cases.h"
 
 namespace nef::planner::test {
 namespace {
@@ -69,7 +70,7 @@ bool motion_is_free(const Scene& scene, const Rational3& a, const Rational3& b) 
 TEST_CASE("random polytopes: paths by the swept robot, and motions that would contradict a proof") {
   int paths = 0;
   int proofs = 0;
-  for (unsigned seed = 0; seed < 25; ++seed) {
+  for (unsigned seed = 0; seed < nef::test::fewer(25); ++seed) {
     INFO("seed " << seed);
     Random random(seed);
     const Scene scene = random_scene(random);
@@ -98,7 +99,7 @@ TEST_CASE("random polytopes: paths by the swept robot, and motions that would co
 }
 
 TEST_CASE("start and goal far beyond all obstacles, whose oblique planes meet far out, too") {
-  for (unsigned seed = 0; seed < 25; ++seed) {
+  for (unsigned seed = 0; seed < nef::test::fewer(25); ++seed) {
     INFO("seed " << seed);
     Random random(seed);
     const Scene scene = random_scene(random);

@@ -9,6 +9,7 @@
 
 #include "nef/base/union_find.h"
 #include "tests/planner/scene_table.h"
+#include "tests/support/fixed_cases.h"
 
 namespace nef::planner::test {
 namespace {
@@ -78,7 +79,7 @@ Scene slotted_scene(unsigned seed) {
 
 TEST_CASE("leaves of one cell are joined inside that cell: tight plates cut by many planes") {
   std::size_t cut = 0;
-  for (unsigned seed = 0; seed < 60; ++seed) {
+  for (unsigned seed = 0; seed < nef::test::fewer(60); ++seed) {
     INFO("seed " << seed);
     cut += check_zones(FreeSpace(free_positions(slotted_scene(seed))));
   }
@@ -87,7 +88,7 @@ TEST_CASE("leaves of one cell are joined inside that cell: tight plates cut by m
 
 TEST_CASE("the roadmap has a path iff the cells are joined, at every thickness, and the best T and J if asked for") {
   std::size_t paths = 0;
-  for (unsigned seed = 0; seed < 40; ++seed) {
+  for (unsigned seed = 0; seed < nef::test::fewer(40); ++seed) {
     INFO("seed " << seed);
     const FreeSpace free(free_positions(slotted_scene(seed)));
     const Roadmap& roadmap = free.roadmap();

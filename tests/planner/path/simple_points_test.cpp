@@ -12,6 +12,7 @@
 #include "nef/construct/construct.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
+#include "tests/support/fixed_cases.h"
 
 namespace nef::planner::test {
 namespace {
@@ -49,7 +50,7 @@ TEST_CASE("rounded points: the nearest first, all coordinates before some, never
 
 TEST_CASE("paths of so many digits are free, as long as the others but for that, and say where they have more") {
   std::size_t rounded_count = 0;
-  for (unsigned seed = 0; seed < 6; ++seed) {
+  for (unsigned seed = 0; seed < nef::test::fewer(6); ++seed) {
     std::mt19937 random(seed);
     const auto number = [&](int low, int high) {
       return ratio(std::uniform_int_distribution<int>(low, high)(random), 7);

@@ -10,6 +10,7 @@
 #include "apps/planner/search/search.h"
 #include "nef/construct/construct.h"
 #include "tests/planner/scene_helpers.h"
+#include "tests/support/fixed_cases.h"
 
 namespace nef::planner::test {
 namespace {
@@ -42,7 +43,7 @@ bool lies_in(const std::vector<Rational3>& way, const Polyhedron& set) {
 TEST_CASE("a way through roadmaps of parts of free space, in random sets with many a tight passage") {
   int found = 0;
   int joined = 0;
-  for (unsigned seed = 0; seed < 24; ++seed) {
+  for (unsigned seed = 0; seed < nef::test::fewer(24); ++seed) {
     INFO("seed " << seed);
     const FreeSpace free(degenerate_set(seed));
     const CellFilter filter(free);

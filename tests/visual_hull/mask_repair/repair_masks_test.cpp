@@ -67,7 +67,8 @@ cv::Mat lowest(const cv::Mat& mask, double share) {
   return part;
 }
 
-TEST_CASE("What one mask lost comes back, what another one has too much goes, and right masks stay as they are") {
+TEST_CASE(
+    "What masks lost comes back, what one has too much goes, a view without a mask gets one, and right masks stay") {
   const Scratch s;
   const Studio studio(s);
   std::vector<cv::Mat> masks;
@@ -78,11 +79,12 @@ TEST_CASE("What one mask lost comes back, what another one has too much goes, an
   cv::ellipse(shadow, {330, 300}, {60, 25}, 0, 0, 360, cv::Scalar(255), cv::FILLED);
   shadow &= studio.truth[7] == 0;
   masks[7] |= shadow;
+  masks[5] = cv::Scalar(0);
   const std::vector<MaskChange> changes = repair_masks(studio.views, PixelOrigin::kCenter, masks);
   for (std::size_t i = 0; i < masks.size(); ++i) {
     INFO("view " << i << ": " << changes[i].added << " added, " << changes[i].removed << " removed");
-    CHECK(mask_overlap(masks[i], studio.truth[i]) > 0.99);
-    if (i != 2 && i != 7) CHECK(changes[i].share < 0.003);
+    CHECK(mask_overlap(masks[i], studio.truth[i]) > (i == 5 ? 0.95 : 0.99));
+    if (i != 2 && i != 7 && i != 5) CHECK(changes[i].share < 0.003);
   }
   CHECK(changes[2].added > 0.9 * cv::countNonZero(lost));
   CHECK(changes[7].removed > 0.7 * cv::countNonZero(shadow));
@@ -91,27 +93,14 @@ TEST_CASE("What one mask lost comes back, what another one has too much goes, an
   CHECK_THAT(lines[0], Contains("mask of view 2: " + std::to_string(changes[2].added) + " pixels added"));
 }
 
-TEST_CASE("Masks of few views, and right ones, stay") {
+TEST_CASE("Masks of few views stay") {
   const Scratch s;
   const Studio studio(s);
-  std::vector<cv::Mat> masks;
-  for (const cv::Mat& mask : studio.truth) masks.push_back(mask.clone());
-  for (const MaskChange& change : repair_masks(studio.views, PixelOrigin::kCenter, masks)) CHECK(change.share < 0.003);
   std::vector<PhotographedView> few(studio.views.begin(), studio.views.begin() + 3);
   std::vector<cv::Mat> cut{studio.truth[0], studio.truth[1], studio.truth[2] & ~lowest(studio.truth[2], 0.3)};
   const cv::Mat before = cut[2].clone();
   CHECK(repair_masks(few, PixelOrigin::kCenter, cut)[2].share == 0);
   CHECK(cv::countNonZero(before != cut[2]) == 0);
-}
-
-TEST_CASE("A view without a mask gets one from the others") {
-  const Scratch s;
-  const Studio studio(s);
-  std::vector<cv::Mat> masks;
-  for (const cv::Mat& mask : studio.truth) masks.push_back(mask.clone());
-  masks[5] = cv::Scalar(0);
-  CHECK(repair_masks(studio.views, PixelOrigin::kCenter, masks)[5].added > 0);
-  CHECK(mask_overlap(masks[5], studio.truth[5]) > 0.95);
 }
 
 TEST_CASE("Repairs of masks on the way to a hull are told, and need cameras") {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The switch of all fast paths that have a slower twin with the same results (docs/how/fast_paths.md lists them).
+// The switch of all fast paths that have a slower twin with the same results (docs/reliability.md lists them).
 #pragma once
 
 namespace nef {

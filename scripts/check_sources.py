@@ -5,7 +5,7 @@ with a folder of the repository, and every relative link), whether ctest can run
 source has a test near it (scripts/tests_of.py), whether all files that name a version name the same, and whether
 pages have both versions of a merge. Prints what does not hold; exits 1 if anything does not.
 
-Usage: scripts/check_sources.py
+Usage: scripts/check_sources.py [FOLDER]      with FOLDER only the links of the pages in it, as installed
 """
 import pathlib
 import re
@@ -38,11 +38,16 @@ def pages() -> list[pathlib.Path]:
     return sorted(ROOT.glob("*.md")) + inside
 
 
+def dead_links(page: pathlib.Path) -> list[str]:
+    text = CODE.sub("", page.read_text(encoding="utf-8"))
+    dead = [link for link in LINK.findall(re.sub(r"`[^`]*`", "", text)) if not (page.parent / link).exists()]
+    return [f"{page} links to {link}, which does not exist" for link in dead]
+
+
 def dead_paths(page: pathlib.Path) -> list[str]:
     text = CODE.sub("", page.read_text(encoding="utf-8"))
     dead = [name for name in PATH.findall(text) if name not in PLACEHOLDERS and not any(ROOT.glob(name.rstrip("/")))]
-    dead += [link for link in LINK.findall(re.sub(r"`[^`]*`", "", text)) if not (page.parent / link).exists()]
-    return [f"{page.relative_to(ROOT)} names {name}, which does not exist" for name in dead]
+    return [f"{page.relative_to(ROOT)} names {name}, which does not exist" for name in dead] + dead_links(page)
 
 
 def unresolved_merges(page: pathlib.Path) -> list[str]:
@@ -97,10 +102,18 @@ def other_versions() -> list[str]:
 
 
 def main() -> int:
-    complaints = other_versions() + silent_sources() + untested_sources() + unrunnable_tests() + [
-        line for page in pages() for line in dead_paths(page) + unresolved_merges(page)]
+    if len(sys.argv) > 1:
+        installed = sorted(pathlib.Path(sys.argv[1]).rglob("*.md"))
+        complaints = [line for page in installed for line in dead_links(page)] or ([] if installed else ["there are no pages"])
+    else:
+        complaints = complaints_of_sources()
     print("\n".join(complaints), end="\n" if complaints else "")
     return 1 if complaints else 0
+
+
+def complaints_of_sources() -> list[str]:
+    return other_versions() + silent_sources() + untested_sources() + unrunnable_tests() + [
+        line for page in pages() for line in dead_paths(page) + unresolved_merges(page)]
 
 
 if __name__ == "__main__":

@@ -87,6 +87,12 @@ if(PKG_CONFIG)
   endif()
 endif()
 
+# The pages link to what is installed.
+if(PYTHON AND NOT SHARED)
+  file(GLOB pages ${WORK}/installed/share/doc/libnef-dev)
+  run(${PYTHON} -B ${SOURCE}/../../../scripts/check_sources.py ${pages})
+endif()
+
 # The projects of the tutorials, from their pages.
 if(PYTHON)
   set(pages ${SOURCE}/../../../docs/tutorials/cmake.md)

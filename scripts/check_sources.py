@@ -2,15 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Whether long sources open with what they do, whether the pages name files that exist (every path in backticks that begins
 with a folder of the repository, and every relative link), whether ctest can run every test by its name, whether each
-source has a test near it (scripts/tests_of.py), whether recipes of packages are of this version, and whether
+source has a test near it (scripts/tests_of.py), whether all files that name a version name the same, and whether
 pages have both versions of a merge. Prints what does not hold; exits 1 if anything does not.
 
-Usage: scripts/check_sources.py
+Usage: scripts/check_sources.py [FOLDER]      with FOLDER only the links of the pages in it, as installed
 """
 import pathlib
 import re
 import sys
 
+import set_version
 import tests_of
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -37,11 +38,16 @@ def pages() -> list[pathlib.Path]:
     return sorted(ROOT.glob("*.md")) + inside
 
 
+def dead_links(page: pathlib.Path) -> list[str]:
+    text = CODE.sub("", page.read_text(encoding="utf-8"))
+    dead = [link for link in LINK.findall(re.sub(r"`[^`]*`", "", text)) if not (page.parent / link).exists()]
+    return [f"{page} links to {link}, which does not exist" for link in dead]
+
+
 def dead_paths(page: pathlib.Path) -> list[str]:
     text = CODE.sub("", page.read_text(encoding="utf-8"))
     dead = [name for name in PATH.findall(text) if name not in PLACEHOLDERS and not any(ROOT.glob(name.rstrip("/")))]
-    dead += [link for link in LINK.findall(re.sub(r"`[^`]*`", "", text)) if not (page.parent / link).exists()]
-    return [f"{page.relative_to(ROOT)} names {name}, which does not exist" for name in dead]
+    return [f"{page.relative_to(ROOT)} names {name}, which does not exist" for name in dead] + dead_links(page)
 
 
 def unresolved_merges(page: pathlib.Path) -> list[str]:
@@ -85,18 +91,29 @@ def untested_sources() -> list[str]:
 
 
 def other_versions() -> list[str]:
-    """Recipes of packages that name another version than nef/version.h does."""
-    version = re.search('define NEF_VERSION "(.*)"', (ROOT / "nef" / "version.h").read_text(encoding="utf-8")).group(1)
-    recipes = {"packaging/vcpkg/vcpkg.json": r'"version-semver": "(.*)"', "packaging/conda/recipe.yaml": r'version: "(.*)"'}
-    named = {path: re.search(pattern, (ROOT / path).read_text(encoding="utf-8")).group(1) for path, pattern in recipes.items()}
-    return [f"{path} is of version {other}, nef/version.h of {version}" for path, other in named.items() if other != version]
+    """Files that name another version than nef/version.h does, and a version without a section in CHANGELOG.md."""
+    version = set_version.version_in("nef/version.h")
+    named = {path: set_version.version_in(path) for path in set_version.PLACES}
+    complaints = [f"{path} is of version {other!r}, nef/version.h of {version!r}; scripts/set_version.py sets both"
+                  for path, other in named.items() if other != version]
+    if not re.search(rf"^## {re.escape(version)}\b", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE):
+        complaints.append(f"CHANGELOG.md has no section of the version {version}; scripts/set_version.py makes it of 'Unreleased'")
+    return complaints
 
 
 def main() -> int:
-    complaints = other_versions() + silent_sources() + untested_sources() + unrunnable_tests() + [
-        line for page in pages() for line in dead_paths(page) + unresolved_merges(page)]
+    if len(sys.argv) > 1:
+        installed = sorted(pathlib.Path(sys.argv[1]).rglob("*.md"))
+        complaints = [line for page in installed for line in dead_links(page)] or ([] if installed else ["there are no pages"])
+    else:
+        complaints = complaints_of_sources()
     print("\n".join(complaints), end="\n" if complaints else "")
     return 1 if complaints else 0
+
+
+def complaints_of_sources() -> list[str]:
+    return other_versions() + silent_sources() + untested_sources() + unrunnable_tests() + [
+        line for page in pages() for line in dead_paths(page) + unresolved_merges(page)]
 
 
 if __name__ == "__main__":

@@ -6,6 +6,10 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
+if [ $# -gt 1 ] || { [ $# -eq 1 ] && [ "$1" != --untested ]; }; then
+  echo "usage: scripts/release.sh [--untested]" >&2
+  exit 2
+fi
 version=$(sed -n 's/^#define NEF_VERSION "\(.*\)"$/\1/p' nef/version.h)
 
 if [ -n "$(git status --porcelain)" ]; then
@@ -22,6 +26,7 @@ notes=$(python3 scripts/release_notes.py "$version" ${1:+--or-unreleased})
 source scripts/setup.sh
 install_missing "${nef_packages[@]}" python3-pip python3-wheel dpkg-dev
 out=$root/release/$version
+rm -rf "$out" # of an earlier try
 mkdir -p "$out"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -34,7 +39,17 @@ cmake --preset release -DNEF_COMPILE_TOGETHER=ON -DNEF_BUILD_TESTS=OFF -DNEF_BUI
 cmake --build --preset release
 cpack -G DEB --config build/release/CPackConfig.cmake -B "$work/packages" >/dev/null
 cp "$work"/packages/*.deb "$out"
-NEF_BUILD_TREE=$PWD/build/release pip wheel -q --no-build-isolation --no-deps -w "$out" .
+# The interpreter that the package is built for, whichever comes first on the PATH.
+python=$(sed -n 's/^NEF_PYTHON_EXECUTABLE:INTERNAL=//p' build/release/CMakeCache.txt)
+NEF_BUILD_TREE=$PWD/build/release "$python" -m pip wheel -q --no-build-isolation --no-deps -w "$out" .
+
+# What was packed works where it is unpacked, and its pages link to what is there.
+for package in "$out"/*.deb; do dpkg-deb -x "$package" "$work/unpacked"; done
+"$work/unpacked/usr/bin/nef" eval 'box(0,0,0, 2,2,2) - box(1,1,1, 3,3,3)' --json >/dev/null
+for folder in nef-programs libnef-dev; do python3 scripts/check_sources.py "$work/unpacked/usr/share/doc/$folder"; done
+"$python" -m pip install -q --no-deps --no-index --target "$work/installed" "$out"/*.whl
+(cd "$work" && PYTHONPATH=$work/installed "$python" -c 'import nef; print("wheel:", nef.__version__, nef.box((0, 0, 0), (1, 1, 1)).volume())')
+
 git archive --prefix="nef-$version/" HEAD | gzip -9 -n >"$out/nef-$version.tar.gz"
 printf '%s\n' "$notes" >"$out/NOTES.md"
 cd "$out"

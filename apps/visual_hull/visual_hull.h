@@ -7,7 +7,7 @@
 //   options.silhouette.simplify.tolerance = 1;
 //   const std::filesystem::path folder = nef::visual_hull::scene_folder("scene.json");
 //   nef::visual_hull::Result result = nef::visual_hull::compute(scene, folder, options);
-//   nef::write_polyhedron(result.hull, "hull.off");
+//   nef::write_polyhedron("hull.off", result.hull);  // nef/io/polyhedron_file.h
 #pragma once
 
 #include <array>

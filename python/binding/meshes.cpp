@@ -15,6 +15,9 @@ std::uint32_t vertex_number(std::int64_t index, std::size_t face, std::size_t ve
 }
 
 std::int64_t index_of(py::handle number) {
+  if (PyIndex_Check(number.ptr()) == 0) {
+    throw py::type_error("faces must be lists of integers, not of " + std::string(py::repr(number)));
+  }
   const long index = PyNumber_AsSsize_t(number.ptr(), PyExc_IndexError);
   if (index == -1 && PyErr_Occurred() != nullptr) throw py::error_already_set();
   return index;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "binding/base/arguments.h"
 #include "binding/base/bindings.h"
 #include "binding/base/errors.h"
 #include "binding/base/signatures.h"
@@ -23,4 +24,5 @@ by operations. Operators are those of Python's sets: ``|`` (or ``+``), ``&``, ``
   nef::python::bind_tiles(module);
   module.attr("__version__") = NEF_VERSION;
   nef::python::give_signatures(module);
+  nef::python::explain_arguments(module);
 }

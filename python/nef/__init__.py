@@ -53,7 +53,7 @@ _APPLICATIONS = ("minkowski", "planner", "remeshing", "visual_hull")
 # What other packages call what this one has.
 _OF_MODULE = {
     "union": "a | b, or unite_all", "intersection": "a & b, or intersect_all", "difference": "a - b",
-    "symmetric_difference": "a ^ b", "complement": "~a", "cube": "box", "load": "read", "Box": "box", "Sphere": "sphere",
+    "symmetric_difference": "a ^ b", "complement": "~a", "cube": "box", "load": "read", "load_mesh": "read", "write": "a.write(path)", "save": "a.write(path)", "export": "a.write(path)", "Box": "box", "Sphere": "sphere",
     "convex_hull": "hull", "minkowski_sum": "minkowski.sum", "offset": "minkowski.offset",
     "decimate": "nef.remeshing.decimate", "simplify": "nef.remeshing.decimate", "subdivide": "nef.remeshing.subdivide",
 }
@@ -61,15 +61,23 @@ _OF_SET = {
     "union": "a | b", "intersection": "a & b", "difference": "a - b", "symmetric_difference": "a ^ b", "complement": "~a",
     "issubset": "a <= b", "issuperset": "a >= b", "area": "surface_area", "bounds": "bounding_box", "copy": "a itself: sets are immutable",
     "vertices": "to_mesh, which returns vertices and faces", "faces": "to_mesh, which returns vertices and faces",
-    "save": "write", "export": "write", "hull": "nef.minkowski.hull", "convex_hull": "nef.minkowski.hull",
+    "mesh": "to_mesh", "save": "write", "export": "write", "translated": "translate", "scaled": "scale", "rotated": "rotate",
+    "transformed": "transform", "hull": "nef.minkowski.hull", "convex_hull": "nef.minkowski.hull",
     "offset": "nef.minkowski.offset", "minkowski_sum": "nef.minkowski.sum",
     "decimate": "nef.remeshing.decimate", "simplify": "nef.remeshing.decimate", "subdivide": "nef.remeshing.subdivide",
 }
 
 
+def _nearest(name, names):
+    import difflib  # only after a mistake: it takes longer to import than the rest of the package
+
+    near = () if name.startswith("_") else difflib.get_close_matches(name, [n for n in names if not n.startswith("_")], 1, 0.75)
+    return f"; did you mean {near[0]!r}?" if near else ""
+
+
 def __getattr__(name):
     if name not in _APPLICATIONS:
-        hint = f"; use {_OF_MODULE[name]}" if name in _OF_MODULE else ""
+        hint = f"; use {_OF_MODULE[name]}" if name in _OF_MODULE else _nearest(name, __all__)
         raise AttributeError(f"module 'nef' has no attribute {name!r}{hint}")
     try:
         return importlib.import_module("nef." + name)
@@ -123,7 +131,7 @@ def _repr(self):
 
 
 def _missing(self, name):
-    hint = f"; use {_OF_SET[name]}" if name in _OF_SET else ""
+    hint = f"; use {_OF_SET[name]}" if name in _OF_SET else _nearest(name, dir(Polyhedron))
     raise AttributeError(f"'nef.Polyhedron' object has no attribute {name!r}{hint}")
 
 

@@ -39,6 +39,8 @@ def decimate(set: Polyhedron, triangles: int, *, threads: int = 1) -> Decimated:
 
     threads: 0 for as many as the machine has. Raises InputError if the set has no bounded solid part.
     """
+    if not hasattr(triangles, "__index__"):
+        raise TypeError(f"triangles must be an int, not {triangles!r}")
     if triangles < 4:
         raise InputError(f"a solid has at least 4 triangles, not {triangles}")
     return Decimated(*_remeshing.decimate(set, triangles, threads))

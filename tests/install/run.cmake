@@ -22,7 +22,17 @@ if(SHARED)
   run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed --component programs)
 endif()
 run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/installed --component development)
-run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/installed
+# The example at the head of a public header, as a function.
+file(GLOB_RECURSE header ${WORK}/installed/visual_hull.h)
+set(example "")
+if(header)
+  set(example ${WORK}/header_example.cpp)
+  file(STRINGS ${header} lines REGEX "^//   ")
+  string(REGEX REPLACE "(^|;)//   " "\n" lines "${lines}")
+  string(REPLACE "\\;" ";" lines "${lines}")
+  file(WRITE ${example} "#include \"apps/visual_hull/visual_hull.h\"\n#include \"nef/io/polyhedron_file.h\"\nvoid example() {${lines}\n}\n")
+endif()
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/build -DCMAKE_PREFIX_PATH=${WORK}/installed -DHEADER_EXAMPLE=${example}
     -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_BUILD_TYPE=Release)
 run(${CMAKE_COMMAND} --build ${WORK}/build)
 
@@ -85,6 +95,12 @@ if(PKG_CONFIG)
   if(NOT output STREQUAL "4\n")
     message(FATAL_ERROR "without CMake, the example printed '${output}' instead of 4")
   endif()
+endif()
+
+# The pages link to what is installed.
+if(PYTHON AND NOT SHARED)
+  file(GLOB pages ${WORK}/installed/share/doc/libnef-dev)
+  run(${PYTHON} -B ${SOURCE}/../../../scripts/check_sources.py ${pages})
 endif()
 
 # The projects of the tutorials, from their pages.

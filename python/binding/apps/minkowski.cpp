@@ -14,6 +14,7 @@
 
 #include "apps/minkowski/morphology.h"
 
+#include "binding/base/arguments.h"
 #include "binding/base/bindings.h"
 #include "binding/base/signatures.h"
 #include "nef/distance/distance.h"
@@ -287,6 +288,7 @@ Those of dimension 3 come first; their interiors are disjoint. Raises Unsupporte
       },
       py::arg("a"), "The set of all -x with x in a.");
   give_signatures(m);
+  explain_arguments(m);
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "apps/planner/scene/scene.h"
 #include "apps/planner/turning/turning_search.h"
 #include "binding/apps/planner.h"
+#include "binding/base/arguments.h"
 #include "binding/base/bindings.h"
 #include "binding/base/mesh_options.h"
 
@@ -505,4 +506,5 @@ PYBIND11_MODULE(_planner, m) {
   nef::python::define_module(m);
   nef::python::bind_mechanisms(m);
   nef::python::bind_assemblies(m);
+  nef::python::explain_arguments(m);
 }

@@ -5,6 +5,7 @@
 
 #include "apps/remeshing/decimate.h"
 #include "apps/remeshing/subdivide.h"
+#include "binding/base/arguments.h"
 #include "binding/base/bindings.h"
 #include "binding/base/errors.h"
 #include "binding/meshes.h"
@@ -37,4 +38,5 @@ PYBIND11_MODULE(_remeshing, m) {
   pybind11::module_::import("nef._nef");
   m.def("decimate", &nef::python::decimate_set);
   m.def("subdivide", &nef::python::subdivide_mesh);
+  nef::python::explain_arguments(m);
 }

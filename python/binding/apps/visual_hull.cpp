@@ -21,6 +21,7 @@
 #include "apps/visual_hull/scene/axes.h"
 #include "apps/visual_hull/scene/images.h"
 #include "apps/visual_hull/texture/hull_texture.h"
+#include "binding/base/arguments.h"
 #include "binding/base/bindings.h"
 #include "nef/base/in_quotes.h"
 #include "nef/export/to_mesh.h"
@@ -458,4 +459,7 @@ void define_module(py::module_& m) {
 }  // namespace
 }  // namespace nef::python
 
-PYBIND11_MODULE(_visual_hull, m) { nef::python::define_module(m); }
+PYBIND11_MODULE(_visual_hull, m) {
+  nef::python::define_module(m);
+  nef::python::explain_arguments(m);
+}

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Calls with wrong arguments: one line that names the argument, what it must be, and what was given."""
+import pytest
+
+import nef
+from nef.arguments import complaint
+
+CUBE = nef.box((0, 0, 0), (1, 1, 1))
+
+REFUSED = [
+    (lambda: nef.box(1, 2, 3), "box() was called with too many arguments, 3: box(low, high)"),
+    (lambda: nef.box((0, 0, 0)), "box() lacks the argument 'high': box(low, high)"),
+    (lambda: nef.box(low=(0, 0, 0), hi=(1, 1, 1)), "box() has no argument 'hi': box(low, high)"),
+    (lambda: nef.box((0, 0, 0), (1, 1, 1), low=(2, 2, 2)), "box() was given the argument 'low' twice: box(low, high)"),
+    (lambda: nef.sphere(1, corners=4.5), "sphere(): corners must be an int, not 4.5 (float)"),
+    (lambda: nef.sphere(1, "many"), "sphere(): corners must be an int, not 'many' (str)"),
+    (lambda: nef.eval(5), "eval(): text must be a str, not 5 (int)"),
+    (lambda: nef.halfspace(1, 1, 1, 0, closed="yes"), "halfspace(): closed must be True or False, not 'yes' (str)"),
+    (lambda: CUBE.volume(1), "volume() was called with too many arguments, 1: volume()"),
+    (lambda: CUBE.isdisjoint("part.off"), "isdisjoint(): other must be a nef.Polyhedron, not 'part.off' (str)"),
+    (lambda: nef.Polyhedron.volume("part.off"), "volume() is a method of a nef.Polyhedron, not of 'part.off' (str)"),
+    (lambda: nef.TiledPolyhedron(CUBE, limit="all"), "TiledPolyhedron(): limit must be an int, not 'all' (str)"),
+]
+
+
+@pytest.mark.parametrize("number", range(len(REFUSED)))
+def test_the_argument_is_named(number):
+    call, text = REFUSED[number]
+    with pytest.raises(TypeError) as caught:
+        call()
+    assert str(caught.value) == text
+
+
+def test_a_value_that_only_its_function_refuses():
+    with pytest.raises(TypeError, match=r"sphere\(\) does not take these values: 1 \(int\), corners=-1 \(int\); it is "):
+        nef.sphere(1, corners=-1)
+
+
+def test_applications(needs):
+    needs("minkowski")
+    with pytest.raises(TypeError, match=r"^sum\(\): b must be a nef.Polyhedron, not 1 \(int\)$"):
+        nef.minkowski.sum(CUBE, 1)
+    needs("planner")
+    with pytest.raises(TypeError, match=r"^Scene\(\): robot must be a nef.Polyhedron, not 'robot.off' \(str\)$"):
+        nef.planner.Scene("robot.off", [CUBE])
+    with pytest.raises(TypeError, match=r"obstacles must be a list, each item a nef.Polyhedron"):
+        nef.planner.Scene(CUBE, ["wall.off"])
+
+
+def test_faces_are_integers():
+    with pytest.raises(TypeError, match="faces must be lists of integers, not of 0.5"):
+        nef.from_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0.5, 1, 2)])
+
+
+def test_errors_of_functions_are_not_changed():
+    with pytest.raises(nef.InputError, match="a corner needs three numbers"):
+        nef.box((0, 0), (1, 1))
+    with pytest.raises(TypeError, match="a number is needed"):
+        nef.box((0, 0, 0), (1, 1, None))
+    with pytest.raises(TypeError, match="unsupported operand"):
+        CUBE - 3
+
+
+def test_several_overloads():
+    text = ("f(): incompatible function arguments. The following argument types are supported:\n"
+            "    1. (a: int) -> int\n    2. (text: str, sep: str = ', ') -> str\n\nInvoked with: 1.5")
+    assert complaint(text, (1.5,), {}) == "f() takes none of these values: 1.5 (float); it is f(a) or f(text, sep=', ')"
+
+
+def test_misspelt_names_get_a_suggestion():
+    with pytest.raises(AttributeError, match="no attribute 'half_space'; did you mean 'halfspace'"):
+        nef.half_space
+    with pytest.raises(AttributeError, match="no attribute 'volum'; did you mean 'volume'"):
+        CUBE.volum

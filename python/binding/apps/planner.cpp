@@ -7,7 +7,7 @@
 #include "apps/planner/clearance/widest_robot.h"
 #include "apps/planner/no_path/no_rigid_path.h"
 #include "apps/planner/path/question.h"
-#include "apps/planner/proofs/answer_proof.h"
+#include "apps/planner/proofs/make/answer_proof.h"
 #include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid/certified_path.h"
 #include "apps/planner/rigid/pose_file.h"

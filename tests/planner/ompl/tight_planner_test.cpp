@@ -12,7 +12,7 @@
 #include <catch2/catch.hpp>
 #include <sstream>
 
-#include "apps/planner/command/ompl_runs.h"
+#include "apps/planner/command/runs/ompl_runs.h"
 #include "apps/planner/ompl/cell_sampler.h"
 #include "apps/planner/ompl/nef_validity.h"
 #include "apps/planner/ompl/ompl_planners.h"

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Proofs that passages are tight: they hold where free space has such passages, there are none elsewhere, and what is
-// changed in one is refused.
+// changed in one is refused: apps/planner/proofs/make/make_tight.cpp and apps/planner/proofs/check/check_tight.cpp.
 #include <catch2/catch.hpp>
 #include <random>
 
 #include "apps/planner/free_space/free_positions.h"
-#include "apps/planner/proofs/answer_proof.h"
+#include "apps/planner/proofs/make/answer_proof.h"
 #include "apps/planner/proofs/proof_file.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <catch2/catch.hpp>
 
-#include "apps/planner/command/runs.h"
+#include "apps/planner/command/runs/runs.h"
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/turning/turning_search.h"
 #include "apps/program/exact_json.h"

@@ -7,7 +7,7 @@
 // some distance that is the same for all directions.
 #include <algorithm>
 
-#include "apps/planner/proofs/check_parts.h"
+#include "apps/planner/proofs/check/check_parts.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef::planner {

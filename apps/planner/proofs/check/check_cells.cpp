@@ -13,7 +13,7 @@
 
 #include "apps/planner/free_space/hulls_apart.h"
 #include "apps/planner/orientation/orientation_cells.h"
-#include "apps/planner/proofs/check_parts.h"
+#include "apps/planner/proofs/check/check_parts.h"
 #include "nef/base/error.h"
 #include "nef/construct/convex_hull.h"
 #include "nef/geometry/integer_vector.h"

@@ -3,7 +3,7 @@
 // Cheapest first: is an end not free, and, if only a path is asked for, is there one in a part of free space
 // (`partial_answer`)? Otherwise all of free space is computed, and queries, a given path, OMPL's planners or the
 // scene's own question are answered from it.
-#include "apps/planner/command/runs.h"
+#include "apps/planner/command/runs/runs.h"
 
 #include <algorithm>
 #include <iostream>
@@ -11,8 +11,8 @@
 
 #include "apps/planner/clearance/timing.h"
 #include "apps/planner/command/findings.h"
-#include "apps/planner/command/ompl_runs.h"
 #include "apps/planner/command/report.h"
+#include "apps/planner/command/runs/ompl_runs.h"
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/path/partial_answer.h"
 #include "apps/planner/path/path_file.h"

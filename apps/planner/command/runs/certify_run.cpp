@@ -2,7 +2,7 @@
 //
 // One run: certify the path motion by motion, write its proof, the report, pages and glTF files. What is said of a path
 // is the same for robots of one body and of several links (linkage_run.cpp).
-#include "apps/planner/command/runs.h"
+#include "apps/planner/command/runs/runs.h"
 
 #include <Eigen/Geometry>
 #include <iostream>

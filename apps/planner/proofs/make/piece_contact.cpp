@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/planner/proofs/piece_contact.h"
+#include "apps/planner/proofs/make/piece_contact.h"
 
 #include <algorithm>
 #include <utility>
 #include <vector>
 
-#include "apps/planner/proofs/common_point.h"
+#include "apps/planner/proofs/make/common_point.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef::planner {

@@ -3,7 +3,7 @@
 // One run: check the options, read the parts, take them apart, write files, print. The report, the text and the layers
 // of pages are made from the same Disassembly. In a page each step takes an equal share of the time, and each part
 // moves along its path at constant speed.
-#include "apps/planner/command/runs.h"
+#include "apps/planner/command/runs/runs.h"
 
 #include <iostream>
 

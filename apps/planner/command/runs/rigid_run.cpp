@@ -3,7 +3,7 @@
 
 #include "apps/planner/command/findings.h"
 #include "apps/planner/command/report.h"
-#include "apps/planner/command/runs.h"
+#include "apps/planner/command/runs/runs.h"
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid_search/pose_metric.h"

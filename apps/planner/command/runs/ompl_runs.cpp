@@ -4,7 +4,7 @@
 // more here, exactly (`describe_path`, or the path's own check for robots that turn), and only counts if that succeeds.
 // Of several runs the shortest path is reported. A benchmark adds TightPlanner, which has to build its free space in
 // each run, and columns for T, J and proofs.
-#include "apps/planner/command/ompl_runs.h"
+#include "apps/planner/command/runs/ompl_runs.h"
 
 #include <ompl/tools/benchmark/Benchmark.h>
 #include <ompl/util/Console.h>

@@ -4,15 +4,15 @@
 // written with exact breakpoints and vertices, so that `read_turning_proof` restores exactly what the search found; the
 // reader checks the shape of the JSON and leaves the truth to `complaint_about`. The times of the robot's motion count
 // turns by the way of its farthest corner.
-#include "apps/planner/command/runs.h"
+#include "apps/planner/command/runs/runs.h"
 
 #include <cmath>
 #include <iostream>
 
 #include "apps/planner/clearance/timing.h"
 #include "apps/planner/command/findings.h"
-#include "apps/planner/command/ompl_runs.h"
 #include "apps/planner/command/report.h"
+#include "apps/planner/command/runs/ompl_runs.h"
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/turning/turning_robot.h"
 #include "apps/program/exact_json.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-#include "apps/planner/proofs/check_parts.h"
+#include "apps/planner/proofs/check/check_parts.h"
 #include "apps/planner/proofs/inseparable_proof.h"
 #include "nef/geometry/vectors.h"
 #include "nef/polyhedron.h"

@@ -4,7 +4,7 @@
 // r>^2. Square roots come from the integer square root, arcus tangents from their series after the angle is halved
 // twice, each with a bound on either side. Bounds are rounded outward on the way: exact powers would have tens of
 // thousands of digits, and what is computed with the bounds after that, too.
-#include "apps/planner/proofs/arc_time.h"
+#include "apps/planner/proofs/check/arc_time.h"
 
 #include <algorithm>
 #include <cstddef>

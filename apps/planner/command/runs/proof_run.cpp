@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // --proof and --check-proof for paths, and that there is none.
-#include "apps/planner/command/runs.h"
+#include "apps/planner/command/runs/runs.h"
 
 #include <iostream>
 
 #include "apps/planner/command/findings.h"
 #include "apps/planner/no_path/no_rigid_path.h"
-#include "apps/planner/proofs/answer_proof.h"
+#include "apps/planner/proofs/make/answer_proof.h"
 #include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid/certified_path.h"
 #include "apps/planner/rigid/pose_file.h"

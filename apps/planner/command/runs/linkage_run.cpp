@@ -3,7 +3,7 @@
 // One run: read the robot, the obstacles and the path, certify the path, write the report, pages and glTF files. To be
 // shown, a motion is cut into steps of a few degrees, since pages and glTF files move each link straight between the
 // times that they are given; links are drawn at the start with rotations rounded to some digits, which no check sees.
-#include "apps/planner/command/runs.h"
+#include "apps/planner/command/runs/runs.h"
 
 #include <Eigen/Geometry>
 #include <cmath>

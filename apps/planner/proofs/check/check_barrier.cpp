@@ -11,7 +11,7 @@
 #include <map>
 #include <utility>
 
-#include "apps/planner/proofs/check_parts.h"
+#include "apps/planner/proofs/check/check_parts.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef::planner {

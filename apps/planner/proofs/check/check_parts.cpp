@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/planner/proofs/check_parts.h"
+#include "apps/planner/proofs/check/check_parts.h"
 
 #include <algorithm>
 

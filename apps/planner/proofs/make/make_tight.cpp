@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "apps/planner/free_space/free_space.h"
-#include "apps/planner/proofs/check_parts.h"
-#include "apps/planner/proofs/piece_contact.h"
+#include "apps/planner/proofs/check/check_parts.h"
+#include "apps/planner/proofs/make/piece_contact.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef::planner {

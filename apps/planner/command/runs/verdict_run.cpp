@@ -10,7 +10,7 @@
 #include <set>
 
 #include "apps/planner/command/findings.h"
-#include "apps/planner/command/runs.h"
+#include "apps/planner/command/runs/runs.h"
 #include "apps/planner/mechanism/range_of_motion.h"
 #include "apps/planner/verdict/verdict.h"
 #include "apps/program/exact_json.h"

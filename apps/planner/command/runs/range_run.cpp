@@ -2,7 +2,7 @@
 //
 // One run: read the mechanism, find its range, write the report, print a line for each part. The report has the ends as
 // exact roots and as doubles; the text has doubles and the first pair of items that touch.
-#include "apps/planner/command/runs.h"
+#include "apps/planner/command/runs/runs.h"
 
 #include <algorithm>
 #include <iostream>

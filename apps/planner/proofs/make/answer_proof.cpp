@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Proofs of translations are those of a rigid path whose poses are not turned.
-#include "apps/planner/proofs/answer_proof.h"
+#include "apps/planner/proofs/make/answer_proof.h"
 
 #include "nef/base/error.h"
 

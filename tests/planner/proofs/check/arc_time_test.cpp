@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Bounds of times against angles that are known, and against long doubles.
-#include "apps/planner/proofs/arc_time.h"
+#include "apps/planner/proofs/check/arc_time.h"
 
 #include <rapidcheck.h>
 

@@ -10,7 +10,7 @@
 
 #include "apps/planner/assembly/closed_sets.h"
 #include "apps/planner/proofs/inseparable_proof.h"
-#include "apps/planner/proofs/piece_contact.h"
+#include "apps/planner/proofs/make/piece_contact.h"
 #include "apps/planner/rigid/rigid_body.h"
 #include "nef/geometry/vectors.h"
 

@@ -7,13 +7,22 @@
 #include <span>
 #include <vector>
 
+#include "nef/mesh/mesh.h"
+#include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/surface/surface_contacts.h"
 
 namespace nef {
 
-/// Puts each face into the first group in which no face is in contact with it; nearly all come to be in the first one.
-/// A face is left out if left_out[face]. Groups and faces in them are in order. O(faces + contacts).
+/// The connected components of a mesh, in which common vertices join faces: of each face the first face of its
+/// component, kNone for faces without corners. No index may be bad. O(n).
+std::vector<std::uint32_t> face_components(const Mesh& mesh, const MeshSurface& surface);
+
+/// Puts the faces into groups so that no two faces in contact come into one group. A component without contacts within
+/// itself stays whole while there are few groups, for every border of a group costs vertices that have to be joined
+/// later; it is put into the first group in which nothing is in contact with it. The faces of other components are put
+/// into groups one by one, and nearly all come to be in the first one. `component` names the component of each face;
+/// faces for which it is kNone are left out. Faces in groups are in order. O(faces + contacts).
 std::vector<std::vector<std::uint32_t>> contact_groups(std::span<const FaceContact> contacts,
-                                                       const std::vector<bool>& left_out);
+                                                       std::span<const std::uint32_t> component);
 
 }  // namespace nef

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "nef/geometry/ids.h"
 #include "nef/import/contact_groups.h"
 #include "nef/import/mesh_faces.h"
 #include "nef/polyhedron.h"
@@ -53,12 +54,14 @@ int net_of_mark(LabelId mark) {
 Polyhedron arrange_faces(const Mesh& mesh, std::unique_ptr<const MeshSurface> surface,
                          std::span<const FaceContact> contacts, Covering covering, const MeshOptions& options,
                          Messages* messages) {
-  std::vector<bool> left_out(mesh.face_count(), false);
-  for (std::size_t f = 0; f < left_out.size(); ++f) left_out[f] = surface->defects[f] != FaceDefect::kNone;
+  std::vector<std::uint32_t> components = face_components(mesh, *surface);
+  for (std::size_t f = 0; f < components.size(); ++f) {
+    if (surface->defects[f] != FaceDefect::kNone) components[f] = kNone;
+  }
   std::vector<Polyhedron> parts;
   {
     MeshFaces faces(mesh, *surface, options, messages);
-    for (const std::vector<std::uint32_t>& group : contact_groups(contacts, left_out)) {
+    for (const std::vector<std::uint32_t>& group : contact_groups(contacts, components)) {
       parts.emplace_back(covering == Covering::kSigned ? faces.oriented_surface(group) : faces.surface(group));
     }
   }

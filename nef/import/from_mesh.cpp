@@ -8,13 +8,14 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "nef/base/counted.h"
 #include "nef/base/error.h"
 #include "nef/base/monitor.h"
-#include "nef/base/union_find.h"
 #include "nef/construct/construct.h"
 #include "nef/import/checked_surface.h"
+#include "nef/import/contact_groups.h"
 #include "nef/import/fill.h"
 #include "nef/import/from_surface.h"
 #include "nef/import/mesh_faces.h"
@@ -27,23 +28,6 @@
 namespace nef {
 namespace {
 
-// The first face of each connected component of the surface.
-std::vector<std::uint32_t> first_faces(const Mesh& mesh, const MeshSurface& surface) {
-  UnionFind places(mesh.vertices.size());
-  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-    for (const std::uint32_t v : mesh.face(f)) places.unite(surface.place[v], surface.place[mesh.face(f)[0]]);
-  }
-  std::vector<bool> seen(mesh.vertices.size(), false);
-  std::vector<std::uint32_t> result;
-  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-    if (mesh.face(f).empty()) continue;
-    const std::uint32_t component = places.find(surface.place[mesh.face(f)[0]]);
-    if (!seen[component]) result.push_back(f);
-    seen[component] = true;
-  }
-  return result;
-}
-
 // The surface is gone before there is a solid.
 std::variant<Complex, Defect> try_solid(CheckedSurface& checked, const MeshOptions& options, Messages* messages) {
   SolidFaces faces = solid_faces(checked, options, messages);
@@ -53,8 +37,10 @@ std::variant<Complex, Defect> try_solid(CheckedSurface& checked, const MeshOptio
 
 [[noreturn]] void refuse_components(const Mesh& mesh, const Monitor& monitor) {
   std::string list;
-  for (const std::uint32_t f : first_faces(mesh, MeshSurface(mesh, monitor)))
-    list += (list.empty() ? "" : ", ") + std::to_string(f);
+  const std::vector<std::uint32_t> components = face_components(mesh, MeshSurface(mesh, monitor));
+  for (std::uint32_t f = 0; f < components.size(); ++f) {
+    if (components[f] == f) list += (list.empty() ? "" : ", ") + std::to_string(f);
+  }
   throw InputError("components of the mesh (which begin at faces " + list.substr(0, 60) +
                    ") contradict each other: one is oriented like the component around it, or unlike those beside it; "
                    "flip its faces" +

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "nef/base/error.h"
+#include "nef/geometry/ids.h"
 #include "nef/geometry/vectors.h"
 #include "nef/import/contact_groups.h"
 #include "nef/import/mesh_faces.h"
@@ -87,8 +88,12 @@ Polyhedron from_surface(const Mesh& mesh, const MeshSurface& surface, const Mesh
     if (contact.f == contact.g) single[contact.f] = true;
   }
   std::vector<Polyhedron> parts;
+  std::vector<std::uint32_t> components = face_components(mesh, surface);
+  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
+    if (single[f]) components[f] = kNone;
+  }
   MeshFaces faces(mesh, surface, options, messages);
-  for (const std::vector<std::uint32_t>& group : contact_groups(contacts, single)) {
+  for (const std::vector<std::uint32_t>& group : contact_groups(contacts, components)) {
     parts.emplace_back(faces.surface(group));
   }
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {

@@ -35,9 +35,26 @@ class BuildByCMake(build_ext):
         shutil.rmtree(installed, ignore_errors=True)
         subprocess.run(["cmake", "--install", str(tree), "--component", "python", "--strip", "--prefix", str(installed)],
                        check=True)
-        package = next(installed.glob("**/nef/__init__.py")).parent
-        shutil.copytree(package, pathlib.Path(self.build_lib) / "nef", dirs_exist_ok=True)
+        package = pathlib.Path(self.build_lib) / "nef"
+        shutil.copytree(next(installed.glob("**/nef/__init__.py")).parent, package, dirs_exist_ok=True)
+        bundle_libraries(package)
 
+
+def bundle_libraries(package):
+    """Copies the libraries of the core beside its modules, which look there first, with their licences where Debian has them."""
+    found = {}
+    for module in package.glob("_*.so"):
+        printed = subprocess.run(["ldd", module], capture_output=True, text=True, check=True).stdout
+        found.update(re.findall(rf"((?:{'|'.join(BUNDLED)})[0-9]*[.]so\S*) => (/\S+)", printed))
+    for name, path in found.items():
+        shutil.copy2(path, package / name)
+        for notice in pathlib.Path("/usr/share/doc").glob(re.match("[a-z]+", name).group() + "[0-9]*/copyright"):
+            (package / "licenses").mkdir(exist_ok=True)
+            shutil.copy2(notice, package / "licenses" / f"{notice.parent.name}.txt")
+
+
+# Of the core; OpenCV, OMPL and assimp, of applications, come from the system.
+BUNDLED = ("libgmp", "libtbb", "libzip", "libpng")
 
 VERSION = re.search('define NEF_VERSION "(.*)"', (ROOT / "nef" / "version.h").read_text()).group(1)
 

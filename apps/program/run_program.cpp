@@ -82,10 +82,25 @@ std::string suggested_subcommand(const CLI::App& app, const std::string& word) {
   return did_you_mean(word, names);
 }
 
+// "--plane A,B,C,D is required": what the value of a missing option looks like.
+std::string missing_option(const CLI::App& app, const CLI::ParseError& error) {
+  const std::string what = error.what();
+  const std::string name = what.substr(0, what.find(' '));
+  if (name.rfind("--", 0) != 0 || name == "--output") return what;
+  for (const CLI::App* command : app.get_subcommands()) {
+    const CLI::Option* option = command->get_option_no_throw(name);
+    if (option == nullptr) continue;
+    const std::string type = option->get_type_name();  // "UINT:POSITIVE", with what checks it
+    return name + " " + type.substr(0, type.find(':')) + what.substr(name.size());
+  }
+  return what;
+}
+
 // What is wrong with a command line. An option that does not exist comes first: what is missing beside it may be what
 // it was meant for.
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
   const std::vector<std::string> left = app.remaining(true);
+  if (!left.empty() && left.front() == "help") return "'help' is an option, --help";
   const bool lacks_command = !subcommand_names(app).empty() && app.get_subcommands().empty();
   if (lacks_command && !left.empty() && left.front().front() != '-') {
     return "there is no subcommand '" + left.front() + "'" + suggested_subcommand(app, left.front());
@@ -101,10 +116,10 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
   if (!left.empty() && (is_extra || is_missing)) {
     const std::vector<std::string> options = option_names(app);
     const bool writes = std::find(options.begin(), options.end(), "--output") != options.end();
-    return (is_missing ? std::string(error.what()) + "; " : "") + "unexpected argument '" + left.front() + "'" +
+    return (is_missing ? missing_option(app, error) + "; " : "") + "unexpected argument '" + left.front() + "'" +
            (writes ? "; an output file is named with -o" : "");
   }
-  return error.what();
+  return is_missing ? missing_option(app, error) : error.what();
 }
 
 }  // namespace

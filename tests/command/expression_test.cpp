@@ -4,6 +4,8 @@
 #include <catch2/catch.hpp>
 
 #include <array>
+#include <string>
+#include <vector>
 
 #include "apps/program/expression/expression.h"
 #include "apps/program/numbers.h"
@@ -190,6 +192,8 @@ TEST_CASE("errors give the column and what was expected") {
         "column 18: expected an operator (+ * - ^) or the end, found 'box'");
   CHECK(refusal("cube(1)") == "column 1: there is no set or function 'cube'; a cube is box(0,0,0, 1,1,1)");
   CHECK(refusal("spere(1)") == "column 1: there is no set or function 'spere'; did you mean 'sphere'?");
+  CHECK(refusal("a.off + b.off") == "column 1: there is no set or function 'a'; a file is named by file(\"part.off\")");
+  CHECK(refusal("read(\"a.off\")").find("a file is named by file(") != std::string::npos);
   CHECK(refusal("plate = box(0,0,0,1,1,1); plat") ==
         "column 27: there is no set or function 'plat'; did you mean 'plate'?");
   CHECK(refusal("x") == "column 1: there is no set or function 'x'");
@@ -222,6 +226,19 @@ TEST_CASE("nested parentheses within the limit are evaluated, and those beyond i
   CHECK(refusal(nested(1010)).find("nested too deeply") != std::string::npos);
   CHECK(volume(evaluate_expression("box(0,0,0,1,1," + std::string(990, '(') + "1" + std::string(990, ')') + ")")) == 1);
   CHECK(refusal("box(0,0,0,1,1," + std::string(1010, '-') + "1)").find("nested too deeply") != std::string::npos);
+}
+
+TEST_CASE("Balls of many corners are announced before they are computed") {
+  std::vector<std::string> warnings;
+  ExpressionOptions options;
+  options.warn = [&](const std::string& warning) { warnings.push_back(warning); };
+  warn_of_corners(options, "sphere(1, 1000)", 1000);
+  CHECK(warnings.empty());
+  warn_of_corners(options, "sphere(1, 4000)", 4000);
+  CHECK(warnings == std::vector<std::string>{
+                        "sphere(1, 4000) has 8000000 vertices, which take minutes and 3120 MB or more; 200 corners "
+                        "differ from the ball by about 1/4000 of the radius"});
+  CHECK_NOTHROW(warn_of_corners({}, "sphere(1, 4000)", 4000));
 }
 
 TEST_CASE("lists of numbers") {

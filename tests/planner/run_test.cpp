@@ -313,6 +313,7 @@ TEST_CASE("the example program runs") {
   CHECK(WEXITSTATUS(status) == 0);
   const std::string out = text_of(folder.file("out"));
   CHECK(out.find("TightPlanner: Exact solution, length 7.16667, checked yes") != std::string::npos);
+  CHECK(out.find("TightPlanner: Infeasible\n") != std::string::npos);
   CHECK(out.find("No path: the free space has 2 components") != std::string::npos);
 }
 

@@ -114,7 +114,9 @@ void check_output(const Arguments& a, Task task) {
     if (!a.session.output.empty())
       throw InputError("--penetration prints its answer and takes no -o (--report writes it to a file)");
   } else if (a.session.output.empty()) {
-    throw InputError("no output: name a file with -o");
+    const bool is_bare = task == Task::kSum && a.operands.empty();
+    throw InputError(is_bare ? "give two sets and an output: minkowski A B -o OUT (see minkowski --help)"
+                             : "no output: name a file with -o");
   }
   if (!a.format.empty() && task != Task::kDecompose) {
     throw InputError("--format goes with --decompose; -o names a file by its extension");

@@ -7,6 +7,7 @@
 #include <ompl/util/Console.h>
 
 #include <iostream>
+#include <string>
 
 #include "apps/planner/ompl/translation_planning.h"
 
@@ -22,7 +23,9 @@ nef::Polyhedron wall_with_hole(const Rational& height) {
 }
 
 void report(const char* who, TranslationPlanning& setup, ompl::base::PlannerStatus status) {
-  std::cout << who << ": " << status.asString();
+  // OMPL has a status for a proof that there is no path only from 1.6 on.
+  const bool is_infeasible = setup.getProblemDefinition()->hasSolutionNonExistenceProof();
+  std::cout << who << ": " << (is_infeasible ? std::string("Infeasible") : status.asString());
   if (setup.haveExactSolutionPath()) {
     std::cout << ", length " << setup.getSolutionPath().length() << ", checked "
               << (setup.getSolutionPath().check() ? "yes" : "no");

@@ -98,7 +98,7 @@ class ExpressionEvaluator {
       case Term::kHullOfSets:
         return convex_hull_of_sets(sets, options_.monitor);
       case Term::kSphere:
-        return make_sphere(n[0], corners_of(n, 1, kMostCornersOfBall), options_.monitor);
+        return sphere(n);
       case Term::kCylinder:
         warn_of_radius(n);
         return make_cylinder(n[0], n[1], n.size() > 2 ? n[2] : n[1], corners_of(n, 3, kMostCornersOfCircle),
@@ -115,6 +115,12 @@ class ExpressionEvaluator {
       default:
         return combine(node.term, sets);
     }
+  }
+
+  [[nodiscard]] Polyhedron sphere(std::span<const Rational> n) const {
+    const unsigned corners = corners_of(n, 1, kMostCornersOfBall);
+    warn_of_corners(options_, "sphere(" + to_string(n[0]) + ", " + std::to_string(corners) + ")", corners);
+    return make_sphere(n[0], corners, options_.monitor);
   }
 
   // A third number that is far beyond the others is likely meant as corners.
@@ -263,6 +269,16 @@ AffineMap affine_map_of(std::span<const Rational> n) {
     map.translation[i] = n[4 * i + 3] / w;
   }
   return map;
+}
+
+void warn_of_corners(const ExpressionOptions& options, const std::string& name, unsigned corners) {
+  if (corners <= kManyCornersOfBall || !options.warn) return;
+  constexpr std::size_t kBytesPerVertex = 390;
+  const std::size_t vertices = std::size_t{corners} * (corners / 2);
+  const std::size_t megabytes = std::max<std::size_t>(1, vertices * kBytesPerVertex / 1000000);
+  options.warn(name + " has " + std::to_string(vertices) + " vertices, which take minutes and " +
+               std::to_string(megabytes) +
+               " MB or more; 200 corners differ from the ball by about 1/4000 of the radius");
 }
 
 }  // namespace nef

@@ -42,6 +42,8 @@ namespace nef {
 /// The most corners around that texts may ask for: balls have their square, other shapes as many vertices.
 inline constexpr unsigned kMostCornersOfBall = 4000;
 inline constexpr unsigned kMostCornersOfCircle = 100000;
+/// Balls of more corners than this take a minute or more: they get a warning before they are computed.
+inline constexpr unsigned kManyCornersOfBall = 1000;
 
 /// What is wrong with an expression, and where. what() is "column C: ..." ("line L, column C: ..."
 /// from the second line on).
@@ -84,6 +86,10 @@ bool is_blank_expression(std::string_view text);
 
 /// The closed convex hull of the union of sets. Throws InputError if one is unbounded. O(n log n) expected.
 Polyhedron convex_hull_of_sets(std::span<const Polyhedron> sets, const Monitor& monitor = {});
+
+/// Warns before a ball of many corners is computed, by its size and what fewer corners would do; `name` is what the
+/// text calls it.
+void warn_of_corners(const ExpressionOptions& options, const std::string& name, unsigned corners);
 
 /// The affine map given by 12 or 16 numbers, the rows of a 3x4 or 4x4 matrix. A 4x4 matrix must
 /// have the last row 0,0,0,w with w other than 0. Throws InputError.

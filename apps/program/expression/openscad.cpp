@@ -66,7 +66,10 @@ class ModelEvaluator {
     if (name == "sphere") {
       const Rational r = number(node, "r", 0, 1);
       if (r <= 0) return nothing(node, "its radius is " + brief_text(r));
-      return {3, make_sphere(r, corners(node, r, kMostCornersOfBall), options_.monitor)};
+      const unsigned around = corners(node, r, kMostCornersOfBall);
+      warn_of_corners(
+          options_, "line " + std::to_string(node.line) + ": sphere of " + std::to_string(around) + " corners", around);
+      return {3, make_sphere(r, around, options_.monitor)};
     }
     if (name == "cylinder") return cylinder(node);
     if (name == "polyhedron") return polyhedron(node);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A recursive descent parser, one function for each rule of the grammar in expression.h.
+#include <algorithm>
 #include <cctype>
 #include <map>
 
@@ -181,10 +182,15 @@ class ExpressionParser : private ExpressionScanner {
     return node;
   }
 
+  static constexpr const char* kFilesAreNamed = "; a file is named by file(\"part.off\")";
+
   [[nodiscard]] std::string suggestion(std::string_view name) const {
     std::vector<std::string> known = function_names();
     for (const auto& [variable, index] : sets_) known.push_back(variable);
     if (name == "cube") return "; a cube is box(0,0,0, 1,1,1)";
+    if (name == "read" || name == "load" || name == "import" || name == "open") return kFilesAreNamed;
+    const std::string_view next = text().substr(std::min(offset() + name.size(), text().size()));
+    if (next.size() > 1 && next[0] == '.' && is_letter(next[1])) return kFilesAreNamed;  // "a.off"
     return did_you_mean(name, known);
   }
 

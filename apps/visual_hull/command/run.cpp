@@ -6,12 +6,15 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <sstream>
+#include <string>
 #include <string_view>
 
+#include "apps/program/nearest_word.h"
 #include "apps/program/run_program.h"
 #include "apps/visual_hull/command/arguments.h"
 #include "apps/visual_hull/command/calibrate_run.h"
@@ -193,12 +196,21 @@ int run(const Arguments& a) {
   return conclude(session, scene, result);
 }
 
+constexpr int kBadUsage = 2;
+
+// A suggestion if a first word is almost a subcommand, and no scene.
+std::string misspelt_subcommand(const std::string& word) {
+  std::error_code error;
+  if (word.empty() || std::filesystem::exists(word, error)) return {};
+  return nef::did_you_mean(word, {"masks", "board", "calibrate"});
+}
+
 }  // namespace
 
 int run_command(int argc, char** argv) {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // errors are ours to tell
   cv::setNumThreads(1);                                                   // threads have whole views to work on
-  const std::string_view first = argc > 1 ? argv[1] : "";
+  const std::string first = argc > 1 ? argv[1] : "";
   if (first == "masks") return run_masks_command(argc - 1, argv + 1);
   if (first == "board") return run_board_command(argc - 1, argv + 1);
   if (first == "calibrate") return run_calibrate_command(argc - 1, argv + 1);
@@ -207,6 +219,10 @@ int run_command(int argc, char** argv) {
     session.show_phase(phase, done, total);
   };
   session.monitor = session.monitor.telling(show);
+  if (const std::string meant = misspelt_subcommand(first); !meant.empty()) {
+    session.complain("there is no subcommand or file '" + first + "'" + meant + " (see visual_hull --help)");
+    return kBadUsage;
+  }
   Arguments arguments(session);
   CLI::App app{
       "Exact visual hulls from calibrated silhouettes: a closed solid, in rational numbers, without tolerance."};

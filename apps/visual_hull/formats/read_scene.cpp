@@ -56,6 +56,11 @@ Scene read_scene(const fs::path& file, const ReadOptions& options) {
   if (text[text.find_first_not_of(" \t\r\n")] == '{') return read_json_scene(text, file);
   if (nef::lower_extension(file.string()) == "vsh") return read_vsh(text, file);
   if (has_parameter_blocks(text)) return read_parameter_blocks(text, file);
+  if (text.find('\0') != std::string::npos) {  // an image, most likely
+    throw nef::InputError(
+        file.string() +
+        ": not a scene; give a scene file, or a folder of images with --turntable N (docs/visual_hull.md)");
+  }
   return read_text_scene(text, file);
 }
 

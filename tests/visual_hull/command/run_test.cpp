@@ -163,7 +163,9 @@ TEST_CASE("Bad use and bad input: one line, exit code 2") {
     CHECK(std::count(outcome.output.begin(), outcome.output.end(), '\n') == 1);
   };
   fails(run(""), "SCENE is required");
+  fails(run("mask photographs"), "no subcommand or file 'mask'; did you mean 'masks'?");
   fails(run("nowhere.json"), "no such file");
+  fails(run(data("eight/eight_00.png")), "not a scene; give a scene file, or a folder of images");
   fails(run(s.folder().string()), "is a directory");
   fails(run(data("letters/nef.vsh") + " --simplify -3"), "--simplify");
   fails(run(data("letters/nef.vsh") + " --border maybe"), "--border");

@@ -22,8 +22,18 @@ constexpr std::array<std::uint64_t, kMaxScale + 1> powers_of(std::uint64_t base)
 constexpr auto kPowerOfTen = powers_of(10);
 constexpr auto kPowerOfFive = powers_of(5);
 
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+constexpr bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// Of each byte, whether it ends a word.
+constexpr std::array<bool, 256> kEndsWord = [] {
+  std::array<bool, 256> result{};
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const char c = static_cast<char>(i);
+    result[i] = is_space(c) || c == '\n' || c == '#';
+  }
+  return result;
+}();
 
 // mantissa / 10^scale in lowest terms: ten has no prime factors but two and five.
 void assign_decimal(bool negative, std::uint64_t mantissa, int scale, Rational& value) {
@@ -94,12 +104,12 @@ bool parse_number(std::string_view text, Rational& value) {
 }
 
 std::string_view TextCursor::take() {
-  const std::size_t first = position_;
-  while (position_ < text_.size() && !is_space(text_[position_]) && text_[position_] != '\n' &&
-         text_[position_] != '#') {
-    ++position_;
-  }
-  return text_.substr(first, position_ - first);
+  const char* const first = text_.data() + position_;
+  const char* const end = text_.data() + text_.size();
+  const char* p = first;
+  while (p != end && !kEndsWord[static_cast<unsigned char>(*p)]) ++p;
+  position_ += static_cast<std::size_t>(p - first);
+  return {first, static_cast<std::size_t>(p - first)};
 }
 
 std::string_view TextCursor::word_in_line() {

@@ -102,13 +102,16 @@ class ComplexOverlay {
 
   // What f does to the marks of operand x beside one mark of the other.
   enum class Effect { kConstant, kIdentity, kInjective, kGeneral };
+  // The same at one vertex, of the marks around it.
+  enum class Verdict : std::uint8_t { kUnknown, kIdentity, kInjective, kGeneral };
   struct Restriction {
     Effect effect = Effect::kGeneral;
     std::vector<LabelId> map;
+    std::vector<Verdict> of_pattern;  // filled as vertices ask
   };
   using Restrictions = std::deque<std::pair<LabelId, Restriction>>;  // keeps its items in place
 
-  const Restriction& restriction(std::size_t x, LabelId other) {
+  Restriction& restriction(std::size_t x, LabelId other) {
     auto& cache = restrictions_[x];
     const auto known = std::find_if(cache.begin(), cache.end(), [other](const auto& r) { return r.first == other; });
     if (known != cache.end()) return known->second;
@@ -143,7 +146,7 @@ class ComplexOverlay {
   }
 
   void push_untouched(std::size_t x, VertexId v, LabelId other) {
-    const Restriction& r = restriction(x, other);
+    Restriction& r = restriction(x, other);
     switch (r.effect) {
       case Effect::kConstant:
         return;
@@ -154,7 +157,7 @@ class ComplexOverlay {
         result_.copy(x, v, &r.map);
         return;
       case Effect::kGeneral: {
-        if (push_if_injective(x, v, other)) return;
+        if (push_if_injective(x, v, other, verdict_on(x, v, other, r))) return;
         std::array<ItemRef, 2> items;
         items[x] = ItemRef(v);
         const SphereMapBuffer& map = overlay_.at(items, other);
@@ -164,10 +167,17 @@ class ComplexOverlay {
     }
   }
 
-  // Copies a vertex if f keeps apart all the marks around it: then nothing simplifies.
-  bool push_if_injective(std::size_t x, VertexId v, LabelId other) {
-    const auto image = [&](LabelId mark) { return x == 0 ? f_(mark, other) : f_(other, mark); };
-    const SphereMapView map = operands_[x].pyramid(ItemRef(v), other, scratch_);
+  // Of vertices without sloops, whose marks are those of their pattern, the first one of each pattern is looked at.
+  Verdict verdict_on(std::size_t x, VertexId v, LabelId other, Restriction& r) {
+    const Complex& c = operands_[x].complex();
+    if (c.vertices[v].sloops != c.vertices[v.next()].sloops) return judge(c.sphere_map(v), x, other);
+    r.of_pattern.resize(c.patterns.size(), Verdict::kUnknown);
+    Verdict& known = r.of_pattern[c.vertices.pattern(v).index()];
+    if (known == Verdict::kUnknown) known = judge(c.sphere_map(v), x, other);
+    return known;
+  }
+
+  Verdict judge(const SphereMapView& map, std::size_t x, LabelId other) {
     marks_.assign(1, map.mark);
     for (const SVertex& item : map.svertices) marks_.push_back(item.mark);
     for (const SHalfedge& item : map.shalfedges) marks_.push_back(item.mark);
@@ -175,15 +185,28 @@ class ComplexOverlay {
     for (const SFace& item : map.sfaces) marks_.push_back(item.mark);
     std::sort(marks_.begin(), marks_.end());
     marks_.erase(std::unique(marks_.begin(), marks_.end()), marks_.end());
+    if (std::all_of(marks_.begin(), marks_.end(), [&](LabelId mark) { return image(mark, x, other) == mark; })) {
+      return Verdict::kIdentity;
+    }
+    for (LabelId& mark : marks_) mark = image(mark, x, other);
+    std::sort(marks_.begin(), marks_.end());
+    return std::adjacent_find(marks_.begin(), marks_.end()) == marks_.end() ? Verdict::kInjective : Verdict::kGeneral;
+  }
+
+  [[nodiscard]] LabelId image(LabelId mark, std::size_t x, LabelId other) const {
+    return x == 0 ? f_(mark, other) : f_(other, mark);
+  }
+
+  // Copies a vertex if f keeps apart all the marks around it: then nothing simplifies.
+  bool push_if_injective(std::size_t x, VertexId v, LabelId other, Verdict verdict) {
+    if (verdict == Verdict::kGeneral) return false;
     // What f leaves as it is keeps its links, too.
-    if (std::all_of(marks_.begin(), marks_.end(), [&](LabelId mark) { return image(mark) == mark; })) {
+    if (verdict == Verdict::kIdentity) {
       result_.copy(x, v, nullptr);
       return true;
     }
-    for (LabelId& mark : marks_) mark = image(mark);
-    std::sort(marks_.begin(), marks_.end());
-    if (std::adjacent_find(marks_.begin(), marks_.end()) != marks_.end()) return false;
-    copy_with_marks(map, image);
+    copy_with_marks(operands_[x].pyramid(ItemRef(v), other, scratch_),
+                    [&](LabelId mark) { return image(mark, x, other); });
     result_.add(operands_[x].point(v), out_.view());
     return true;
   }

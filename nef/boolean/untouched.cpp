@@ -39,6 +39,12 @@ class UntouchedMarks {
 
   IndexedVector<VertexId, LabelId> run(const std::function<const QueryStructure&()>& queries) {
     const LabelId outer = other_.complex().volumes[kOuterVolume].mark;
+    // Of surfaces, all volumes have one mark, and nobody asks which of them holds a vertex.
+    const auto& volumes = other_.complex().volumes;
+    if (std::all_of(volumes.begin(), volumes.end(), [outer](const Volume& v) { return v.mark == outer; })) {
+      marks_.assign(marks_.size(), outer);
+      return std::move(marks_);
+    }
     for (const VertexId v : marks_.ids()) {
       if (!touched(v) && !own_.vertex_box(v).overlaps(other_.bounds())) settle(v, outer);
     }

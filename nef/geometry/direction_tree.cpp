@@ -11,6 +11,10 @@
 // has s x_a > 2^-12 m, and its distances from the planes s x_a (1 + 2^-16) >= |x_b|, |x_c| are above 2^-28 m: it is
 // not cut off. What is left has s x_a > 2^-13 m; its coordinates, after five cuts at most, are off by
 // 5 (e + 2^-50 m) < 2^-31 m, and the quotients, which are below 1 + 2^-15, by 2^-17 at most. kSlack is twice that.
+//
+// A plane that no corner of the polygon lies beyond does not cut it; what the others leave is beyond it by 2^-31 m at
+// most, so that quotients are below 1 + 2^-16 + 2^-18. A plane that all corners lie beyond has no point of the pyramid
+// on their side, as above.
 #include "nef/geometry/direction_tree.h"
 
 #include <algorithm>
@@ -62,15 +66,34 @@ struct Cut {
   }
 };
 
-bool near_centre(Cut cut, double size) {
+bool near_centre(const Cut& whole, double size) {
+  const double limit = 0x1p-11 * size;
+  const std::span<const Double3> all = std::span(whole.corners).first(whole.count);
+  // Most polygons lie beyond one side of the cube, and are not cut.
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (const double sign : {1.0, -1.0}) {
+      if (std::all_of(all.begin(), all.end(), [&](const Double3& p) { return sign * p[axis] + limit < 0; }))
+        return false;
+    }
+  }
+  Cut cut = whole;
   for (std::size_t axis = 0; axis < 3 && cut.count > 0; ++axis) {
     for (const double sign : {1.0, -1.0}) {
       Double3 n{};
       n[axis] = sign;
-      cut.by(n, 0x1p-11 * size);
+      cut.by(n, limit);
     }
   }
   return cut.count > 0 || cut.overflows;
+}
+
+// Where points lie to the sides of a face's pyramid.
+enum class Place { kInside, kAcross, kOutside };
+
+Place place_of(std::span<const Double3> points, const Double3& n) {
+  const auto outside = std::count_if(points.begin(), points.end(), [&](const Double3& p) { return dot(n, p) < 0; });
+  return outside == 0 ? Place::kInside
+                      : (static_cast<std::size_t>(outside) == points.size() ? Place::kOutside : Place::kAcross);
 }
 
 using Corner = std::array<double, 2>;
@@ -142,14 +165,18 @@ std::optional<DirectionTree::Seen> DirectionTree::seen(std::span<const Double3> 
     // Behind the centre, where no point of the pyramid is near.
     const std::span<const Double3> all = std::span(whole.corners).first(whole.count);
     if (std::all_of(all.begin(), all.end(), [&](const Double3& p) { return s * p[a] < 0; })) continue;
+    std::array<Double3, 4> sides{};
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      sides[i][a] = s * (1 + 0x1p-16);
+      sides[i][i < 2 ? b : c] = i % 2 == 0 ? 1.0 : -1.0;
+    }
+    // Of six pyramids a small polygon is in one, mostly, and is not cut.
+    std::array<Place, 4> places{};
+    for (std::size_t i = 0; i < sides.size(); ++i) places[i] = place_of(all, sides[i]);
+    if (std::find(places.begin(), places.end(), Place::kOutside) != places.end()) continue;
     Cut cut = whole;
-    for (const std::size_t other : {b, c}) {
-      for (const double sign : {1.0, -1.0}) {
-        Double3 n{};
-        n[a] = s * (1 + 0x1p-16);
-        n[other] = sign;
-        cut.by(n, 0);
-      }
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      if (places[i] == Place::kAcross) cut.by(sides[i], 0);
     }
     if (cut.overflows) return std::nullopt;
     for (std::size_t i = 0; i < cut.count; ++i) {

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// The normal is the product of two sides of the triangle, divided by the common factor of its parts; what then is
+// common to it and the offset is a divisor of the denominator. Short numbers are brought over one denominator and
+// multiplied in machine integers, up to the whole plane if that is short, too; long ones are left to GMP.
 #include "nef/geometry/plane_finder.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <numeric>
+#include <span>
 
 #include "nef/base/fast_path.h"
 #include "nef/number/int128.h"
@@ -24,15 +29,16 @@ bool over_one_denominator(std::array<Homogeneous, 3>& points) {
     common *= w / common_divisor(w, static_cast<std::int64_t>(common));
     if (common >= kLimit) return false;
   }
+  const auto denominator = static_cast<std::int64_t>(common);
   for (Homogeneous& p : points) {
-    if (p[3] == common) continue;
-    const Int128 factor = common / p[3];
+    if (p[3] == denominator) continue;
+    const std::int64_t factor = denominator / p[3];
     for (std::size_t i = 0; i < 3; ++i) {
-      const Int128 x = factor * p[i];
+      const Int128 x = static_cast<Int128>(factor) * p[i];
       if (x >= kLimit || x <= -kLimit) return false;
       p[i] = static_cast<std::int64_t>(x);
     }
-    p[3] = static_cast<std::int64_t>(common);
+    p[3] = denominator;
   }
   return true;
 }
@@ -42,19 +48,68 @@ std::uint64_t bits_of(const std::array<std::int64_t, 3>& v) {
          static_cast<std::uint64_t>(std::abs(v[2]));
 }
 
-// p - o up to a positive factor.
-void difference(const PointTable& points, PointId p, PointId o, Integer3& out) {
+// Two sides of a triangle, in numbers over one denominator, which like all these numbers is below 2^62.
+struct SmallSides {
+  std::array<Homogeneous, 3> at;  // the corners
+  std::array<std::int64_t, 3> u;
+  std::array<std::int64_t, 3> v;
+  int width = 0;  // of u and v in bits, together
+};
+
+// Nothing if the numbers are not small.
+std::optional<SmallSides> small_sides(const PointTable& points, const std::array<PointId, 3>& triangle) {
+  SmallSides s;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!points.small_coordinates(triangle[k], s.at[k])) return std::nullopt;
+  }
+  if (!over_one_denominator(s.at)) return std::nullopt;
+  for (std::size_t i = 0; i < 3; ++i) {
+    s.u[i] = s.at[1][i] - s.at[0][i];
+    s.v[i] = s.at[2][i] - s.at[0][i];
+  }
+  s.width = std::bit_width(bits_of(s.u)) + std::bit_width(bits_of(s.v));
+  return s;
+}
+
+void assign(Integer& to, Int128 value) {
+  const Unsigned128 size = magnitude(value);
+  mp_limb_t* const limbs = mpz_limbs_write(to.get_mpz_t(), 2);
+  limbs[0] = static_cast<mp_limb_t>(size);
+  limbs[1] = static_cast<mp_limb_t>(size >> 64U);
+  mpz_limbs_finish(to.get_mpz_t(), value < 0 ? -2 : 2);
+}
+
+// The product of the sides of a triangle in machine integers: its parts are differences of two products of numbers
+// whose widths add up to 126 bits at most, so below 2^127. False if numbers are not that small.
+bool small_normal(const PointTable& points, const std::array<PointId, 3>& triangle, Integer3& n) {
+  const std::optional<SmallSides> s = small_sides(points, triangle);
+  if (!s || s->width > 126) return false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const std::size_t k = (i + 2) % 3;
+    assign(n[i], static_cast<Int128>(s->u[j]) * s->v[k] - static_cast<Int128>(s->u[k]) * s->v[j]);
+  }
+  return true;
+}
+
+// p - o up to a positive factor: over the least common denominator, for what their denominators have in common would go
+// through all that follows, twice. Decimals have a lot in common. `scratch` is two numbers.
+void difference(const PointTable& points, PointId p, PointId o, Integer3& out, std::span<Integer, 2> scratch) {
   const std::array<IntegerView, 4> from = points.coordinates(o);
   const std::array<IntegerView, 4> to = points.coordinates(p);
-  const bool same = mpz_cmp(from[3], to[3]) == 0;
+  if (mpz_cmp(from[3], to[3]) == 0) {
+    for (std::size_t i = 0; i < 3; ++i) mpz_sub(out[i].get_mpz_t(), to[i], from[i]);
+    return;
+  }
+  mpz_ptr factor_of_to = scratch[0].get_mpz_t();
+  mpz_ptr factor_of_from = scratch[1].get_mpz_t();
+  mpz_ptr common = out[0].get_mpz_t();
+  mpz_gcd(common, from[3], to[3]);
+  mpz_divexact(factor_of_to, from[3], common);
+  mpz_divexact(factor_of_from, to[3], common);
   for (std::size_t i = 0; i < 3; ++i) {
-    mpz_ptr d = out[i].get_mpz_t();
-    if (same) {
-      mpz_sub(d, to[i], from[i]);
-    } else {
-      mpz_mul(d, to[i], from[3]);
-      mpz_submul(d, from[i], to[3]);
-    }
+    mpz_mul(out[i].get_mpz_t(), to[i], factor_of_to);
+    mpz_submul(out[i].get_mpz_t(), from[i], factor_of_from);
   }
 }
 
@@ -71,18 +126,9 @@ PlaneId PlaneFinder::through(PlaneTable& planes, const PointTable& points, const
 // a divisor of D. N D is below 2^125, and the offset, a sum of three such products, below 2^127.
 std::optional<PlaneId> PlaneFinder::through_small(PlaneTable& planes, const PointTable& points,
                                                   const std::array<PointId, 3>& triangle) {
-  std::array<Homogeneous, 3> at;
-  for (std::size_t k = 0; k < 3; ++k) {
-    if (!points.small_coordinates(triangle[k], at[k])) return std::nullopt;
-  }
-  if (!over_one_denominator(at)) return std::nullopt;
-  std::array<std::int64_t, 3> u;
-  std::array<std::int64_t, 3> v;
-  for (std::size_t i = 0; i < 3; ++i) {
-    u[i] = at[1][i] - at[0][i];
-    v[i] = at[2][i] - at[0][i];
-  }
-  if (std::bit_width(bits_of(u)) + std::bit_width(bits_of(v)) > 62) return std::nullopt;
+  const std::optional<SmallSides> sides = small_sides(points, triangle);
+  if (!sides || sides->width > 62) return std::nullopt;
+  const auto& [at, u, v, width] = *sides;
   std::array<std::int64_t, 3> n;
   for (std::size_t i = 0; i < 3; ++i) n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
   std::int64_t divisor = std::gcd(n[0], n[1]);
@@ -105,13 +151,16 @@ PlaneId PlaneFinder::through(PlaneTable& planes, const PointTable& points, Point
   if (kFastPaths) {
     if (const std::optional<PlaneId> plane = through_small(planes, points, {o, p, q})) return *plane;
   }
-  difference(points, p, o, u_);
-  difference(points, q, o, v_);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3;
-    const std::size_t k = (i + 2) % 3;
-    mpz_mul(n_[i].get_mpz_t(), u_[j].get_mpz_t(), v_[k].get_mpz_t());
-    mpz_submul(n_[i].get_mpz_t(), u_[k].get_mpz_t(), v_[j].get_mpz_t());
+  if (!kFastPaths || !small_normal(points, {o, p, q}, n_)) {
+    const std::span<Integer, 2> scratch = std::span(n_).first<2>();
+    difference(points, p, o, u_, scratch);
+    difference(points, q, o, v_, scratch);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::size_t j = (i + 1) % 3;
+      const std::size_t k = (i + 2) % 3;
+      mpz_mul(n_[i].get_mpz_t(), u_[j].get_mpz_t(), v_[k].get_mpz_t());
+      mpz_submul(n_[i].get_mpz_t(), u_[k].get_mpz_t(), v_[j].get_mpz_t());
+    }
   }
   if (is_zero(n_)) return PlaneId();
   return with_normal(planes, points, o);

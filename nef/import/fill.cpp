@@ -10,11 +10,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
+#include <map>
+#include <optional>
 #include <utility>
 
 #include "nef/base/error.h"
 #include "nef/complex/local_pyramid.h"
-#include "nef/complex/rewrite_sphere_maps.h"
+#include "nef/complex/patterns/pattern_interner.h"
 #include "nef/geometry/vectors.h"
 #include "nef/import/checked_surface.h"
 #include "nef/import/generalized_winding.h"
@@ -221,12 +224,7 @@ class WindingFiller {
     for (const VolumeId v : filled.volumes.ids()) {
       filled.volumes[v].mark = v != kOuterVolume && is_taken(options_.rule, winding_[v]) ? 1 : 0;
     }
-    rewrite_sphere_maps(filled, [this, &filled](VertexId v, SphereMapBuffer& map) {
-      for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) {
-        map.sfaces[f].mark = filled.volumes[filled.sface_volume(filled.vertices[v].sfaces + f)].mark;
-      }
-      mark_between(filled.planes, map);
-    });
+    mark_sphere_maps(filled);
     filled.facets.assign_marks([&filled](FacetId f) {
       const FacetSides sides = filled.facets.sides_of(f);
       return between(filled.volumes[sides.volume_above].mark, filled.volumes[sides.volume_below].mark);
@@ -235,6 +233,81 @@ class WindingFiller {
     Polyhedron marked(std::move(filled));
     if (!idle_) return marked;
     return overlay(marked, Polyhedron(), without_idle, options_.monitor);
+  }
+
+  // What the marks of a sphere map depend on: its pattern, the marks of its sfaces, and which of its edges lie between
+  // two facets in one plane.
+  struct MapKey {
+    PatternId pattern;
+    std::uint32_t sfaces = 0;
+    std::uint32_t flat_edges = 0;
+    auto operator<=>(const MapKey&) const = default;
+  };
+
+  // Nothing if there may be no vertex, which planes decide, or if there are too many items.
+  std::optional<MapKey> key_of(const Complex& c, VertexId v, const SphereMapView& map) const {
+    constexpr std::size_t kBits = 32;
+    const std::size_t nodes = map.svertices.size();
+    if (!map.sloops.empty() || nodes < 3 || nodes > kBits || map.sfaces.size() > kBits) return std::nullopt;
+    MapKey key{c.vertices.pattern(v)};
+    const SFaceId first = c.vertices.sfaces(v);
+    for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) {
+      key.sfaces |= static_cast<std::uint32_t>(c.volumes[c.sface_volume(first + f)].mark) << f;
+    }
+    for (std::uint32_t n = 0; n < nodes; ++n) {
+      const std::uint32_t e = map.svertices[n].out;
+      if (e == kNone) continue;
+      const std::uint32_t other = map.next_around(e);
+      if (other == e || map.next_around(other) != e) continue;
+      if (map.shalfedges[e].plane.row() == map.shalfedges[other].plane.row()) key.flat_edges |= 1U << n;
+    }
+    return key;
+  }
+
+  // Gives the items at vertices their marks. Planes stay, and few sphere maps differ in what marks depend on; so of
+  // each kind one is looked at.
+  void mark_sphere_maps(Complex& c) {
+    PatternTable patterns;
+    PatternInterner interner;
+    std::map<MapKey, PatternId> known;
+    std::vector<PatternId> pattern_of(c.vertex_count());
+    SphereMapBuffer map;
+    for (const VertexId v : c.vertex_ids()) {
+      const SphereMapView view = c.sphere_map(v);
+      const std::optional<MapKey> key = key_of(c, v, view);
+      PatternId& pattern = pattern_of[v.index()];
+      if (key) {
+        if (const auto at = known.find(*key); at != known.end()) {
+          pattern = at->second;
+          continue;
+        }
+      }
+      map.assign(view);
+      for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) {
+        map.sfaces[f].mark = c.volumes[c.sface_volume(c.vertices.sfaces(v) + f)].mark;
+      }
+      mark_between(c.planes, map);
+      pattern = marked_pattern(c.patterns.view(c.vertices.pattern(v)), map, patterns, interner);
+      std::copy(map.sloops.begin(), map.sloops.end(), c.sloops.begin() + c.vertices[v].sloops);
+      if (key) known.emplace(*key, pattern);
+    }
+    for (const VertexId v : c.vertex_ids()) c.vertices.set_pattern(v, pattern_of[v.index()]);
+    c.patterns = std::move(patterns);
+  }
+
+  // A pattern with the marks of a map of this pattern. Its planes are names, so that those that happen to be equal at
+  // one vertex keep their names apart.
+  static PatternId marked_pattern(const SphereMapView& names, const SphereMapBuffer& map, PatternTable& table,
+                                  PatternInterner& interner) {
+    SphereMapBuffer marked;
+    marked.assign(names);
+    marked.mark = map.mark;
+    for (std::size_t i = 0; i < map.svertices.size(); ++i) marked.svertices[i].mark = map.svertices[i].mark;
+    for (std::size_t i = 0; i < map.shalfedges.size(); ++i) marked.shalfedges[i].mark = map.shalfedges[i].mark;
+    for (std::size_t i = 0; i < map.sfaces.size(); ++i) marked.sfaces[i].mark = map.sfaces[i].mark;
+    std::vector<PlaneId> planes;
+    std::vector<PlaneId> others;
+    return interner.intern(table, marked.view(), planes, others);
   }
 
   static LabelId between(LabelId a, LabelId b) { return a == b ? kIdle + a : 1; }

@@ -83,11 +83,15 @@ std::vector<std::uint32_t> MeshFaces::in_order_of_points(std::span<const std::ui
 // Those of the faces, along the curve.
 std::vector<std::uint32_t> MeshFaces::places_of(std::span<const std::uint32_t> faces) const {
   std::vector<std::uint32_t> ranks;
+  std::vector<bool> known(order_.size(), false);
   for (const std::uint32_t face : faces) {
-    for (const std::uint32_t v : mesh_.face(face)) ranks.push_back(rank_[surface_.place[v]]);
+    for (const std::uint32_t v : mesh_.face(face)) {
+      const std::uint32_t rank = rank_[surface_.place[v]];
+      if (!known[rank]) ranks.push_back(rank);
+      known[rank] = true;
+    }
   }
   std::sort(ranks.begin(), ranks.end());
-  ranks.erase(std::unique(ranks.begin(), ranks.end()), ranks.end());
   for (std::uint32_t& rank : ranks) rank = order_[rank];
   return ranks;
 }

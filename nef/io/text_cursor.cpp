@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A decimal of up to 18 digits fits into 64 bits: its fraction is reduced by shifting out twos and dividing out fives,
-// because ten has no other factors, and no GMP division is needed. All other numbers are left to `try_parse_rational`.
+// A decimal of up to 18 digits fits into 64 bits, and so does the power of five of up to 27 places: the fraction is
+// reduced by shifting out twos and dividing out fives, because ten has no other factors, and no GMP division is needed.
+// All other numbers are left to `try_parse_rational`.
 #include "nef/io/text_cursor.h"
 
 #include <array>
@@ -11,19 +12,31 @@
 namespace nef {
 namespace {
 
-constexpr int kMaxScale = 18;
+constexpr int kMaxDigits = 18;  // 10^18 < 2^60
+constexpr int kMaxScale = 27;   // 5^27 < 2^63
 
-constexpr std::array<std::uint64_t, kMaxScale + 1> powers_of(std::uint64_t base) {
-  std::array<std::uint64_t, kMaxScale + 1> result{};
+template <int kMost>
+constexpr std::array<std::uint64_t, kMost + 1> powers_of(std::uint64_t base) {
+  std::array<std::uint64_t, kMost + 1> result{};
   result[0] = 1;
   for (std::size_t i = 1; i < result.size(); ++i) result[i] = result[i - 1] * base;
   return result;
 }
-constexpr auto kPowerOfTen = powers_of(10);
-constexpr auto kPowerOfFive = powers_of(5);
+constexpr auto kPowerOfTen = powers_of<kMaxDigits>(10);
+constexpr auto kPowerOfFive = powers_of<kMaxScale>(5);
 
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
+constexpr bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// Of each byte, whether it ends a word.
+constexpr std::array<bool, 256> kEndsWord = [] {
+  std::array<bool, 256> result{};
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    const char c = static_cast<char>(i);
+    result[i] = is_space(c) || c == '\n' || c == '#';
+  }
+  return result;
+}();
 
 // mantissa / 10^scale in lowest terms: ten has no prime factors but two and five.
 void assign_decimal(bool negative, std::uint64_t mantissa, int scale, Rational& value) {
@@ -41,7 +54,13 @@ void assign_decimal(bool negative, std::uint64_t mantissa, int scale, Rational& 
   }
   mpz_set_ui(value.get_num_mpz_t(), mantissa);
   if (negative) mpz_neg(value.get_num_mpz_t(), value.get_num_mpz_t());
-  mpz_set_ui(value.get_den_mpz_t(), kPowerOfFive[static_cast<std::size_t>(fives)] << static_cast<unsigned>(twos));
+  const std::uint64_t odd = kPowerOfFive[static_cast<std::size_t>(fives)];
+  if (std::bit_width(odd) + twos <= 64) {
+    mpz_set_ui(value.get_den_mpz_t(), odd << static_cast<unsigned>(twos));
+  } else {
+    mpz_set_ui(value.get_den_mpz_t(), odd);
+    mpz_mul_2exp(value.get_den_mpz_t(), value.get_den_mpz_t(), static_cast<mp_bitcnt_t>(twos));
+  }
 }
 
 // True if `text` is a decimal that fits into 64-bit arithmetic; everything else is left to parse_rational.
@@ -51,19 +70,23 @@ bool parse_short_decimal(std::string_view text, Rational& value) {
   bool negative = false;
   if (p != end && (*p == '-' || *p == '+')) negative = *p++ == '-';
   std::uint64_t mantissa = 0;
-  int digits = 0;
+  int digits = 0;  // from the first one on that is not zero
+  bool is_number = false;
+  const auto take_digits = [&] {
+    for (; p != end && is_digit(*p); ++p) {
+      mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p - '0');
+      if (mantissa != 0) ++digits;
+      is_number = true;
+    }
+  };
+  take_digits();
   int scale = 0;
-  const char* const first = p;
-  for (; p != end && is_digit(*p); ++p) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p - '0');
-  digits = static_cast<int>(p - first);
   if (p != end && *p == '.') {
     const char* const point = ++p;
-    for (; p != end && is_digit(*p); ++p) mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p - '0');
+    take_digits();
     scale = static_cast<int>(p - point);
-    digits += scale;
   }
-  // Leading zeros count as digits here: a longer word only takes the slow road.
-  if (digits == 0 || text.size() > 30 || digits > kMaxScale) return false;
+  if (!is_number || text.size() > 30 || digits > kMaxDigits) return false;
   if (p != end && (*p == 'e' || *p == 'E')) {
     int exponent = 0;
     const char* from = p + 1;
@@ -75,7 +98,7 @@ bool parse_short_decimal(std::string_view text, Rational& value) {
   }
   if (p != end || scale > kMaxScale) return false;
   if (scale < 0) {
-    if (digits - scale > kMaxScale) return false;
+    if (digits - scale > kMaxDigits) return false;
     mantissa *= kPowerOfTen[static_cast<std::size_t>(-scale)];
     scale = 0;
   }
@@ -94,12 +117,12 @@ bool parse_number(std::string_view text, Rational& value) {
 }
 
 std::string_view TextCursor::take() {
-  const std::size_t first = position_;
-  while (position_ < text_.size() && !is_space(text_[position_]) && text_[position_] != '\n' &&
-         text_[position_] != '#') {
-    ++position_;
-  }
-  return text_.substr(first, position_ - first);
+  const char* const first = text_.data() + position_;
+  const char* const end = text_.data() + text_.size();
+  const char* p = first;
+  while (p != end && !kEndsWord[static_cast<unsigned char>(*p)]) ++p;
+  position_ += static_cast<std::size_t>(p - first);
+  return {first, static_cast<std::size_t>(p - first)};
 }
 
 std::string_view TextCursor::word_in_line() {

@@ -5,7 +5,7 @@
 // direction lies in an sface, whose shell bounds its volume from the inside: whatever a ray from v
 // in direction -x meets first bounds the same volume, and if it meets nothing, the volume is the
 // outer one. All other shells are the outer shells of volumes of their own.
-// No ray is needed where v lies in no other component's bounding box: what encloses v has v in its
+// No ray is needed where the component lies in no other component's bounding box: what encloses it has it in its
 // box. So the parts of an assembly that lie side by side cost nothing.
 #include "nef/synthesis/volume_linking.h"
 
@@ -192,22 +192,36 @@ class VolumeLinker {
     return where.kind == SphereLocation::Kind::kSFace ? where.index : kNone;
   }
 
-  // Which components have their lowest vertex in the box of another one.
+  // Which components may lie in the box of another one, as those do that it encloses: what separates a component from
+  // infinity is one other component (the sphere is unicoherent).
   std::vector<bool> may_be_enclosed(const std::vector<std::uint32_t>& components, const std::vector<VertexId>& lowest) {
     std::vector<bool> result(components.size(), false);
     if (components.size() < 2) return result;
     std::vector<std::uint32_t> number(c_.sface_count(), kNone);
     for (std::uint32_t i = 0; i < components.size(); ++i) number[components[i]] = i;
     std::vector<Box> boxes(components.size());
+    std::vector<Box> cores(components.size());  // what surely lies between the extreme coordinates
     for (const VertexId v : c_.vertex_ids()) {
-      boxes[number[component(v)]].add_rounded(c_.points.approximate(point_of(v)));
+      Box point;
+      point.add_rounded(c_.points.approximate(point_of(v)));
+      Box& core = cores[number[component(v)]];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        core.low[axis] = std::min(core.low[axis], point.high[axis]);
+        core.high[axis] = std::max(core.high[axis], point.low[axis]);
+      }
+      boxes[number[component(v)]].add(point);
     }
     const BoxTree tree(boxes);
     for (std::uint32_t i = 0; i < components.size(); ++i) {
       Box point;
       point.add_rounded(c_.points.approximate(point_of(lowest[components[i]])));
       tree.for_each_overlap(point, [&](std::uint32_t other) {
-        if (other != i) result[i] = true;
+        bool holds = other != i;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+          holds =
+              holds && boxes[other].low[axis] <= cores[i].low[axis] && cores[i].high[axis] <= boxes[other].high[axis];
+        }
+        result[i] = result[i] || holds;
       });
     }
     return result;

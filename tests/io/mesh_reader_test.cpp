@@ -5,8 +5,14 @@
 
 #include <bit>
 #include <cstring>
+#include <optional>
+#include <random>
+#include <string>
 
 #include "nef/io/mesh/mesh_reader.h"
+#include "nef/io/text_cursor.h"
+#include "nef/number/number.h"
+#include "nef/polyhedron.h"
 #include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
 
@@ -61,6 +67,31 @@ TEST_CASE("OFF: short decimals are in lowest terms") {
       x.canonicalize();
       CHECK(mpz_cmp(x.get_den_mpz_t(), original.get_den_mpz_t()) == 0);
     }
+  }
+}
+
+TEST_CASE("short decimals are the same numbers as by long division") {
+  std::mt19937_64 random(3);
+  const auto below = [&random](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };
+  const auto digits = [&](int count) {
+    std::string text;
+    for (int i = 0; i < count; ++i) text += static_cast<char>('0' + (below(3) != 0 ? below(10) : 0));
+    return text;
+  };
+  for (int round = 0; round < 20000; ++round) {
+    const char* const signs[] = {"-", "+", "", ""};
+    std::string text = signs[below(4)] + std::string(below(4) == 0 ? below(12) : 0, '0') + digits(below(22));
+    if (below(4) != 0) text += "." + std::string(below(3) == 0 ? below(14) : 0, '0') + digits(below(22));
+    const char* const exponents[] = {"e", "e-", "E+"};
+    if (below(3) == 0) text += exponents[below(3)] + std::to_string(below(40));
+    Rational value;
+    const bool is_number = parse_number(text, value);
+    const std::optional<Rational> expected = try_parse_rational(text);
+    INFO(text);
+    REQUIRE(is_number == expected.has_value());
+    if (!expected) continue;
+    REQUIRE(value == *expected);
+    REQUIRE(value.get_den() == expected->get_den());
   }
 }
 

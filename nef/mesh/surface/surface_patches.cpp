@@ -288,18 +288,17 @@ class WideStars {
       return;
     }
     std::vector<std::uint32_t> plain;
-    std::vector<Box> plain_boxes;
-    for (std::uint32_t p = 0; p < boxes_.size(); ++p) {
-      if (star_of_[p] != kNone) continue;
-      plain.push_back(p);
-      plain_boxes.push_back(boxes_[p]);
-    }
-    BoxTree(plain_boxes).for_each_pair([&](std::uint32_t i, std::uint32_t j) { visit(plain[i], plain[j]); });
-    const BoxTree all(boxes_);
+    std::vector<std::uint32_t> starred;
+    for (std::uint32_t p = 0; p < boxes_.size(); ++p) (star_of_[p] == kNone ? plain : starred).push_back(p);
+    const BoxTree plain_tree = tree_of(plain);
+    const BoxTree starred_tree = tree_of(starred);
+    plain_tree.for_each_pair([&](std::uint32_t i, std::uint32_t j) { visit(plain[i], plain[j]); });
+    std::vector<std::uint32_t> found;
     for (std::uint32_t s = 0; s < stars_.size(); ++s) {
-      all.for_each_overlap(stars_[s].box, [&](std::uint32_t p) {
-        // Of a pair in one star the larger asks, of pairs in two, who is of the later one.
-        if (star_of_[p] == kNone || star_of_[p] >= s) ask(s, p, visit);
+      plain_tree.for_each_overlap(stars_[s].box, [&](std::uint32_t i) { ask(s, plain[i], found, visit); });
+      // Of a pair in one star the larger asks, of pairs in two, who is of the later one.
+      starred_tree.for_each_overlap(stars_[s].box, [&](std::uint32_t i) {
+        if (star_of_[starred[i]] >= s) ask(s, starred[i], found, visit);
       });
     }
   }
@@ -314,6 +313,13 @@ class WideStars {
     std::vector<std::uint32_t> members;
     DirectionTree directions;
   };
+
+  [[nodiscard]] BoxTree tree_of(std::span<const std::uint32_t> patches) const {
+    std::vector<Box> boxes;
+    boxes.reserve(patches.size());
+    for (const std::uint32_t p : patches) boxes.push_back(boxes_[p]);
+    return BoxTree(boxes);
+  }
 
   // Calls visit(polygon) for the triangles of a patch, without the corner `centre`, while it returns true.
   template <typename Visit>
@@ -343,9 +349,9 @@ class WideStars {
   }
 
   template <typename Visit>
-  void ask(std::uint32_t s, std::uint32_t p, const Visit& visit) const {
+  void ask(std::uint32_t s, std::uint32_t p, std::vector<std::uint32_t>& found, const Visit& visit) const {
     const Star& star = stars_[s];
-    std::vector<std::uint32_t> found;
+    found.clear();
     const bool told = each_seen(p, star.centre,
                                 [&](std::span<const Double3> polygon) { return star.directions.find(polygon, found); });
     if (!told) found = star.members;

@@ -178,7 +178,8 @@ SumOfRegions sum_of_regions(ConvolutionFacets& facets, const RoundedFacets& roun
   const PartOfSum marks(monitor, 0.8, 0.95);
   const BoxTree tree(rounded.boxes());
   FacetPyramids pyramids(facets, rounded, tree, monitor);
-  RegionVertices found = region_vertices(facets, tree, pyramids, intervals, membership, saddles, points.monitor());
+  RegionVertices found =
+      region_vertices(facets, rounded, tree, pyramids, intervals, membership, saddles, points.monitor());
   Regions regions = joined_regions(facets, intervals, found, monitor);
   const RegionsInside known = regions_inside(facets, pyramids, membership, found.vertices, regions, tests.monitor());
   const std::size_t items =

@@ -4,7 +4,10 @@
 // meet; which of these it is may be unsure, and then all of them are candidates. Candidates are found exactly and known
 // by their number, so that each is drawn once, in batches on several threads: all facets that hold it, as an
 // arrangement on a sphere, with the regions behind them marked. Points at which every region is inside are dropped.
-// Sums that need not be closed also look at saddle points and at places where facets are not in general position.
+// Where many facets meet in a point or along a line, so do all pairs of them, but only the first one looks for
+// candidates there: that a known point is the only one at an end, or that a known line is that of another pair, is told
+// exactly, by the facets that contain points. Sums that need not be closed also look at saddle points and at places
+// where facets are not in general position.
 #include "apps/minkowski/convolution/region_vertices.h"
 
 #include <algorithm>

@@ -132,8 +132,13 @@ RegionsInside regions_inside(const ConvolutionFacets& facets, FacetPyramids& pyr
   return {std::move(state), questions.size()};
 }
 
-// Marks all items around all vertices; says how many were put to the definition.
-std::size_t mark_boundary(const ConvolutionFacets& facets, FacetPyramids& pyramids, const SumMembership& membership,
+// Items that were put to the definition, and those of them that are not in the sum.
+struct MarkedItems {
+  std::size_t tested = 0, missing = 0;
+};
+
+// Marks all items around all vertices.
+MarkedItems mark_boundary(const ConvolutionFacets& facets, FacetPyramids& pyramids, const SumMembership& membership,
                           const Regions& regions, const std::vector<std::uint8_t>& inside,
                           std::vector<RegionVertex>& vertices, const Monitor& monitor) {
   BoundaryMarker marker(pyramids, facets, monitor);
@@ -149,8 +154,8 @@ std::size_t mark_boundary(const ConvolutionFacets& facets, FacetPyramids& pyrami
       marker.mark(v.point, v.is_saddle_point, v.map);
     }
   }
-  marker.answer(membership);
-  return marker.tested();
+  const std::size_t missing = marker.answer(membership);
+  return {marker.tested(), missing};
 }
 
 Complex complex_of(const ConvolutionFacets& facets, PlaneTable& planes, const std::vector<RegionVertex>& vertices,
@@ -178,12 +183,14 @@ SumOfRegions sum_of_regions(ConvolutionFacets& facets, const RoundedFacets& roun
   const PartOfSum marks(monitor, 0.8, 0.95);
   const BoxTree tree(rounded.boxes());
   FacetPyramids pyramids(facets, rounded, tree, monitor);
-  RegionVertices found = region_vertices(facets, tree, pyramids, intervals, membership, saddles, points.monitor());
+  RegionVertices found =
+      region_vertices(facets, rounded, tree, pyramids, intervals, membership, saddles, points.monitor());
   Regions regions = joined_regions(facets, intervals, found, monitor);
   const RegionsInside known = regions_inside(facets, pyramids, membership, found.vertices, regions, tests.monitor());
-  const std::size_t items =
+  const MarkedItems items =
       mark_boundary(facets, pyramids, membership, regions, known.inside, found.vertices, marks.monitor());
-  SumOfRegions result{complex_of(facets, facets.planes, found.vertices, monitor), found.points, known.tested + items};
+  SumOfRegions result{complex_of(facets, facets.planes, found.vertices, monitor), found.points,
+                      known.tested + items.tested, items.missing};
   monitor.tell_progress(kSumPhase, 1, 1);
   return result;
 }

@@ -16,8 +16,9 @@ namespace nef::minkowski {
 /// What came of an arrangement of facets, and counts for people who measure.
 struct SumOfRegions {
   Complex sum;
-  std::size_t points = 0;  ///< located exactly
-  std::size_t tested = 0;  ///< regions and boundary items that only an intersection could tell
+  std::size_t points = 0;    ///< located exactly
+  std::size_t tested = 0;    ///< regions and boundary items that only an intersection could tell
+  std::size_t passages = 0;  ///< of the items, those that are missing though all around them is in the sum
 };
 
 /// Takes the points at which surviving intervals end, finds the regions around them, joins those that an interval

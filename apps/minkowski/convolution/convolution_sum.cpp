@@ -109,8 +109,9 @@ std::optional<Polyhedron> convolution_sum(const Polyhedron& set_a, const Polyhed
   const PartOfSum second(monitor, kOfIntervals, 1);
   SumOfRegions made = sum_of_regions(facets, rounded, intervals, membership, saddles, second.monitor());
   // Synthesis checks what it is given, but not all that wrong marks on the boundary would lead to: a facet whose border
-  // turns the wrong way.
-  if (!is_closed) {
+  // turns the wrong way. Where all of the boundary is in the sum, or nothing of it is and it has no passages, there are
+  // no such marks.
+  if (facets.marks == BoundaryMarks::kMixed || made.passages > 0) {
     const std::string broken = validate(made.sum, monitor);
     if (!broken.empty()) {
       throw detail::BrokenInvariant({Defect::Kind::kStructure, "a sum by convolution is a set: " + broken, {}});

@@ -4,17 +4,22 @@
 // meet; which of these it is may be unsure, and then all of them are candidates. Candidates are found exactly and known
 // by their number, so that each is drawn once, in batches on several threads: all facets that hold it, as an
 // arrangement on a sphere, with the regions behind them marked. Points at which every region is inside are dropped.
-// Sums that need not be closed also look at saddle points and at places where facets are not in general position.
+// Where many facets meet in a point or along a line, so do all pairs of them, but only the first one looks for
+// candidates there: that a known point is the only one at an end, or that a known line is that of another pair, is told
+// exactly, by the facets that contain points. Sums that need not be closed also look at saddle points and at places
+// where facets are not in general position.
 #include "apps/minkowski/convolution/region_vertices.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
 #include <unordered_map>
 
 #include "apps/minkowski/cells/meeting_points.h"
 #include "apps/minkowski/convolution/arrangement/pyramid_drawer.h"
+#include "apps/minkowski/convolution/known_places.h"
 #include "apps/minkowski/convolution/marks/boundary_marker.h"
 #include "apps/minkowski/minkowski.h"
 #include "nef/base/threads/parallel.h"
@@ -40,6 +45,14 @@ double reach_of(const FacetSegment& s) {
   return reach;
 }
 
+Box widened(Box box, double by) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    box.low[i] -= by;
+    box.high[i] += by;
+  }
+  return box;
+}
+
 std::size_t main_axis(const FacetSegment& s) {
   std::size_t axis = 0;
   for (std::size_t i = 1; i < 3; ++i) {
@@ -50,16 +63,18 @@ std::size_t main_axis(const FacetSegment& s) {
 
 class VertexFinder {
  public:
-  VertexFinder(ConvolutionFacets& facets, const BoxTree& tree, FacetPyramids& pyramids,
+  VertexFinder(ConvolutionFacets& facets, const RoundedFacets& rounded, const BoxTree& tree, FacetPyramids& pyramids,
                const SurvivingIntervals& intervals, const SumMembership& membership, const Monitor& monitor)
       : facets_(facets),
+        rounded_(rounded),
         intervals_(intervals),
         tree_(tree),
         pyramids_(pyramids),
         membership_(membership),
         monitor_(monitor),
         is_closed_(facets.marks == BoundaryMarks::kAll),
-        meetings_(facets.planes, facets.points) {}
+        meetings_(facets.planes, facets.points),
+        places_(rounded.extent()) {}
 
   void add_points(std::span<const SaddlePoint> saddles);
   RegionVertices finish();
@@ -67,8 +82,16 @@ class VertexFinder {
  private:
   void add_interval(const SurvivingInterval& interval);
   void add_points_of(const FacetSegment& s, const SegmentCut& cut);
+  [[nodiscard]] std::array<bool, 2> goes_on_from(const FacetAtPoint& f, const FacetAtPoint& g,
+                                                 const FacetSegment& s) const;
+  [[nodiscard]] std::uint32_t only_point_of(const FacetSegment& s, const SegmentCut& cut) const;
+  [[nodiscard]] bool is_only_point(std::uint32_t point, const FacetSegment& s, const SegmentCut& cut) const;
   void add_points_beyond(std::uint32_t f, std::uint32_t g, const SegmentEnd& end);
-  void add_points_near(const FacetSegment& s, const SegmentCut& cut, std::uint32_t facet);
+  void look_for_points_of(const FacetSegment& s, const SegmentCut& cut, double beyond);
+  void add_known_line(const FacetSegment& s, const SegmentCut& cut);
+  void add_points_of_line(const FacetSegment& s, const SegmentCut& cut, KnownLine& line);
+  std::vector<std::uint32_t> facets_along(const FacetSegment& s, std::span<const std::uint32_t> facets);
+  void add_points_near(const FacetSegment& s, const Box& box, std::uint32_t facet);
   void add_meeting(std::uint32_t f, std::uint32_t g, std::uint32_t h);
   void add_meeting_of(const std::array<PlaneId, 3>& planes);
   void add_corner(std::uint32_t corner);
@@ -82,6 +105,7 @@ class VertexFinder {
   [[nodiscard]] bool is_of_use(PointId point, SphereMapBuffer& map, const Monitor& own) const;
 
   ConvolutionFacets& facets_;
+  const RoundedFacets& rounded_;
   const SurvivingIntervals& intervals_;
   const BoxTree& tree_;
   FacetPyramids& pyramids_;
@@ -92,10 +116,18 @@ class VertexFinder {
   RegionVertices result_;        // its joints come last
   MeetingPoints meetings_;
   struct KnownPoint {
-    std::uint32_t vertex = kNone;       // kNone if all is inside there
-    std::vector<std::uint32_t> facets;  // that hold it, in ascending order
+    std::uint32_t vertex = kNone;      // kNone if all is inside there
+    std::vector<FacetAtPoint> facets;  // that hold it, in ascending order
+
+    [[nodiscard]] const FacetAtPoint* find(std::uint32_t f) const {
+      const auto at = std::lower_bound(facets.begin(), facets.end(), f,
+                                       [](const FacetAtPoint& x, std::uint32_t y) { return x.facet < y; });
+      return at != facets.end() && at->facet == f ? &*at : nullptr;
+    }
   };
   std::unordered_map<std::uint32_t, KnownPoint> known_;  // point -> what is there
+  PlacesOfPoints places_;                                // of these
+  KnownLines known_lines_;
   struct Undrawn {
     PointId point{0};
     std::vector<FacetAtPoint> facets;
@@ -123,8 +155,10 @@ void VertexFinder::add_point(PointId point) {
   ++result_.points;
   KnownPoint& known = at->second;
   const std::vector<FacetAtPoint>& facets = pyramids_.facets_at(point);
-  for (const FacetAtPoint& f : facets) known.facets.push_back(f.facet);
-  std::sort(known.facets.begin(), known.facets.end());
+  known.facets = facets;
+  std::sort(known.facets.begin(), known.facets.end(),
+            [](const FacetAtPoint& f, const FacetAtPoint& g) { return f.facet < g.facet; });
+  places_.add(facets_.points.approximate(point), point.index());
   // Where marks are mixed, a corner in the middle of another facet may be a vertex.
   if (facets.size() < (facets_.marks == BoundaryMarks::kMixed ? 1 : 3)) return;
   undrawn_.push_back({point, facets});
@@ -238,9 +272,8 @@ void VertexFinder::add_points_beyond(std::uint32_t f, std::uint32_t g, const Seg
   add_meeting_of({facets_.plane[f], facets_.plane[g], pyramids_.side_plane(end.facet, end.index)});
 }
 
-// Corners and sides of a facet near a cut.
-void VertexFinder::add_points_near(const FacetSegment& s, const SegmentCut& cut, std::uint32_t facet) {
-  const Box box = s.box_of({std::max(cut.at.low, 0.0), std::min(cut.at.high, 1.0)});
+// Corners and sides of a facet near a cut of a segment, which is in a box.
+void VertexFinder::add_points_near(const FacetSegment& s, const Box& box, std::uint32_t facet) {
   const auto ring = facets_.ring(facet);
   for (std::uint32_t i = 0; i < ring.size(); ++i) {
     Box corner;
@@ -252,8 +285,118 @@ void VertexFinder::add_points_near(const FacetSegment& s, const SegmentCut& cut,
   }
 }
 
+// Whether the segment of two facets goes on from a point of both, towards its start and towards its end.
+std::array<bool, 2> VertexFinder::goes_on_from(const FacetAtPoint& f, const FacetAtPoint& g,
+                                               const FacetSegment& s) const {
+  Direction d = Direction::cross(facets_.planes, facets_.plane[s.f], facets_.plane[s.g]);
+  double along = 0;
+  for (std::size_t i = 0; i < 3; ++i) along += d.approximate[i] * (s.to[i] - s.from[i]);
+  if (along > 0) d = d.negated();
+  const auto both_go = [&](const Direction& to) { return pyramids_.goes_on(f, to) && pyramids_.goes_on(g, to); };
+  return {both_go(d), both_go(d.negated())};
+}
+
+// True if nothing of a segment at a cut can be a vertex but this point: both facets hold it, and it is all of the
+// segment; or the segment goes through it or ends there, and each facet that cuts holds the point, and surely no other
+// of the segment's line.
+bool VertexFinder::is_only_point(std::uint32_t point, const FacetSegment& s, const SegmentCut& cut) const {
+  const auto known = known_.find(point);
+  if (known == known_.end()) return false;
+  const FacetAtPoint* f = known->second.find(s.f);
+  const FacetAtPoint* g = known->second.find(s.g);
+  if (f == nullptr || g == nullptr) return false;
+  if (cut.is_end[0] || cut.is_end[1]) {
+    const std::array<bool, 2> goes_on = goes_on_from(*f, *g, s);
+    if (!goes_on[0] && !goes_on[1]) return true;
+    if ((cut.is_end[0] && goes_on[0]) || (cut.is_end[1] && goes_on[1])) return false;
+  }
+  return std::all_of(intervals_.cutting.begin() + cut.first, intervals_.cutting.begin() + cut.last,
+                     [&](std::uint32_t h) {
+                       if (known->second.find(h) == nullptr) return false;
+                       const FormOnSegment form(rounded_.plane(h), s);
+                       return std::fabs(form.slope) > 2 * form.error;
+                     });
+}
+
+// A point that is known already and the only one at a cut. Where many facets meet in a point, so do as many segments as
+// pairs of them, and only the first of these has to look for it. kNone if that is not sure. Not where marks are mixed:
+// there a side may count that is in the plane of one of the facets.
+std::uint32_t VertexFinder::only_point_of(const FacetSegment& s, const SegmentCut& cut) const {
+  if (facets_.marks == BoundaryMarks::kMixed) return kNone;
+  for (const std::uint32_t point : places_.near(s.box_of({std::max(cut.at.low, 0.0), std::min(cut.at.high, 1.0)}))) {
+    if (is_only_point(point, s, cut)) return point;
+  }
+  return kNone;
+}
+
 void VertexFinder::add_points_of(const FacetSegment& s, const SegmentCut& cut) {
   near_.clear();
+  if (const std::uint32_t point = only_point_of(s, cut); point != kNone) {
+    near_.push_back(point);
+    return;
+  }
+  if (facets_.marks == BoundaryMarks::kMixed || !cut.is_end[0] || !cut.is_end[1]) {
+    look_for_points_of(s, cut, 0);
+    return;
+  }
+  if (KnownLine* line = known_lines_.find(s.f, s.g, s.box_of({0, 1}))) {
+    add_points_of_line(s, cut, *line);
+    return;
+  }
+  look_for_points_of(s, cut, places_.size());
+  add_known_line(s, cut);
+}
+
+// The points on a line are those at which it meets planes and corners: what one pair of facets along it has found, so
+// has each other one, but for facets that were not looked at.
+void VertexFinder::add_points_of_line(const FacetSegment& s, const SegmentCut& cut, KnownLine& line) {
+  near_ = line.points;
+  const std::size_t looked_at = line.facets.size();
+  for (std::uint32_t i = cut.first; i < cut.last; ++i) {
+    const std::uint32_t h = intervals_.cutting[i];
+    if (std::find(line.facets.begin(), line.facets.end(), h) != line.facets.end()) continue;
+    add_meeting(s.f, s.g, h);
+    add_points_near(s, line.box, h);
+    line.facets.push_back(h);
+  }
+  if (line.facets.size() == looked_at) return;
+  line.points = near_;
+  for (const std::uint32_t f : facets_along(s, std::span(line.facets).subspan(looked_at))) {
+    known_lines_.add_along(line, f);
+  }
+}
+
+void VertexFinder::add_known_line(const FacetSegment& s, const SegmentCut& cut) {
+  KnownLine line;
+  line.facets = {s.f, s.g};
+  line.facets.insert(line.facets.end(), intervals_.cutting.begin() + cut.first, intervals_.cutting.begin() + cut.last);
+  line.points = near_;
+  line.box = widened(s.box_of({0, 1}), places_.size());
+  line.along = facets_along(s, line.facets);
+  if (line.along.size() > 2) known_lines_.add(std::move(line));  // else there is no other pair
+}
+
+// Those that surely have the line of a segment in their planes, with the segment's own: two of the points near it are
+// on them and on the line. Leaves each of these points there once.
+std::vector<std::uint32_t> VertexFinder::facets_along(const FacetSegment& s, std::span<const std::uint32_t> facets) {
+  std::sort(near_.begin(), near_.end());
+  near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
+  std::vector<const KnownPoint*> on_line;
+  for (const std::uint32_t p : near_) {
+    const KnownPoint& here = known_.at(p);
+    if (here.find(s.f) != nullptr && here.find(s.g) != nullptr) on_line.push_back(&here);
+  }
+  std::vector<std::uint32_t> result;
+  for (const std::uint32_t f : facets) {
+    const auto count =
+        std::count_if(on_line.begin(), on_line.end(), [f](const KnownPoint* p) { return p->find(f) != nullptr; });
+    if (count >= 2) result.push_back(f);
+  }
+  return result;
+}
+
+// All points that may be vertices, and others; also those that are so far beyond the cut.
+void VertexFinder::look_for_points_of(const FacetSegment& s, const SegmentCut& cut, double beyond) {
   for (std::uint32_t i = cut.first; i < cut.last; ++i) add_meeting(s.f, s.g, intervals_.cutting[i]);
   const bool is_end = cut.is_end[0] || cut.is_end[1];
   const bool simple = is_end ? cut.first == cut.last && cut.is_end[0] != cut.is_end[1] : cut.last - cut.first == 1;
@@ -265,9 +408,10 @@ void VertexFinder::add_points_of(const FacetSegment& s, const SegmentCut& cut) {
   const bool unsure = (cut.is_end[0] && s.ends[0].kind == SegmentEnd::Kind::kUnsure) ||
                       (cut.is_end[1] && s.ends[1].kind == SegmentEnd::Kind::kUnsure);
   if (simple && !unsure) return;
-  add_points_near(s, cut, s.f);
-  add_points_near(s, cut, s.g);
-  for (std::uint32_t i = cut.first; i < cut.last; ++i) add_points_near(s, cut, intervals_.cutting[i]);
+  const Box box = widened(s.box_of({std::max(cut.at.low, 0.0), std::min(cut.at.high, 1.0)}), beyond);
+  add_points_near(s, box, s.f);
+  add_points_near(s, box, s.g);
+  for (std::uint32_t i = cut.first; i < cut.last; ++i) add_points_near(s, box, intervals_.cutting[i]);
 }
 
 // Of the points of the segment at a cut, the first or last one.
@@ -283,9 +427,8 @@ std::uint32_t VertexFinder::nearest(const FacetSegment& s, const SegmentCut& cut
     const PointId point{p};
     const double t = (facets_.points.approximate(point)[axis] - s.from[axis]) / length;
     if (!(t >= cut.at.low - doubt && t <= cut.at.high + doubt)) continue;
-    const std::vector<std::uint32_t>& here = known_.at(p).facets;
-    if (!std::binary_search(here.begin(), here.end(), s.f) || !std::binary_search(here.begin(), here.end(), s.g))
-      continue;
+    const KnownPoint& here = known_.at(p);
+    if (here.find(s.f) == nullptr || here.find(s.g) == nullptr) continue;
     if (best == kNone || (compare_coordinate(facets_.points, point, PointId{best}, static_cast<int>(axis), monitor_) >
                           0) == (up == last)) {
       best = p;
@@ -327,10 +470,11 @@ RegionVertices VertexFinder::finish() {
 
 }  // namespace
 
-RegionVertices region_vertices(ConvolutionFacets& facets, const BoxTree& tree, FacetPyramids& pyramids,
-                               const SurvivingIntervals& intervals, const SumMembership& membership,
-                               std::span<const SaddlePoint> saddles, const Monitor& monitor) {
-  VertexFinder finder(facets, tree, pyramids, intervals, membership, monitor);
+RegionVertices region_vertices(ConvolutionFacets& facets, const RoundedFacets& rounded, const BoxTree& tree,
+                               FacetPyramids& pyramids, const SurvivingIntervals& intervals,
+                               const SumMembership& membership, std::span<const SaddlePoint> saddles,
+                               const Monitor& monitor) {
+  VertexFinder finder(facets, rounded, tree, pyramids, intervals, membership, monitor);
   finder.add_points(saddles);
   return finder.finish();
 }

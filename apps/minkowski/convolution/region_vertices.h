@@ -39,8 +39,9 @@ struct RegionVertices {
 /// The points at which intervals end, with those of their drawings that may be vertices. If the sum need not be closed,
 /// so are its saddle points and places where it may be as narrow as it can be. `tree` is over the boxes of the facets,
 /// whose tables get more planes and points. The monitor is told of kSumPhase.
-RegionVertices region_vertices(ConvolutionFacets& facets, const BoxTree& tree, FacetPyramids& pyramids,
-                               const SurvivingIntervals& intervals, const SumMembership& membership,
-                               std::span<const SaddlePoint> saddles, const Monitor& monitor);
+RegionVertices region_vertices(ConvolutionFacets& facets, const RoundedFacets& rounded, const BoxTree& tree,
+                               FacetPyramids& pyramids, const SurvivingIntervals& intervals,
+                               const SumMembership& membership, std::span<const SaddlePoint> saddles,
+                               const Monitor& monitor);
 
 }  // namespace nef::minkowski

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/minkowski/decomposition/cell_reader.h"
+#include "apps/minkowski/decomposition/reflex.h"
 #include "apps/minkowski/decomposition/wall_axis.h"
 #include "apps/minkowski/decomposition/walls.h"
 #include "apps/minkowski/minkowski.h"
@@ -97,6 +98,9 @@ bool is_convex_set(const Polyhedron& a, const Monitor& monitor) {
 bool is_convex(const Polyhedron& a, const Monitor& monitor) {
   require_bounded(a, "the set");
   if (a.is_empty() || is_point(a)) return true;
+  // A volume that takes more than a half-turn about an edge of a set with one label is not all around it.
+  const Complex& c = a.complex();
+  if (c.label_count == 2 && !reflex_edges(c, 0, monitor).empty()) return false;
   // A closed set with reflex edges would be cut into several solids; asking is cheaper than cutting.
   return is_convex_set(a, monitor);
 }

@@ -40,6 +40,9 @@ class FacetPyramids {
     return side_plane_[facets_.begin[facet] + side];
   }
 
+  /// True if points near the one that a facet holds, in a direction from it, are on the facet.
+  [[nodiscard]] bool goes_on(const FacetAtPoint& at, const Direction& direction) const;
+
   /// A point in a direction from another one, so near that it and all points between are in the same items: insides and
   /// sides of facets, or none.
   Rational3 point_towards(PointId from, const Direction& direction);
@@ -52,7 +55,6 @@ class FacetPyramids {
   [[nodiscard]] bool locate(std::uint32_t facet, PointId point, FacetAtPoint& result);
   /// True if a facet goes on from a point to another one, and that and all between are in one item of it.
   [[nodiscard]] bool is_same_item(const FacetAtPoint& at, PointId from, PointId to);
-  [[nodiscard]] bool goes_on(const FacetAtPoint& at, const Direction& direction) const;
 
   ConvolutionFacets& facets_;
   const RoundedFacets& rounded_;

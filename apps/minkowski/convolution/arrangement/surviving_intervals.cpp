@@ -185,13 +185,13 @@ class SegmentCutter {
       }
       return number[i];
     };
-    for (std::size_t i = 0; passages_ && i < cuts_.size(); ++i) {
-      if (!is_plain(s, cuts_[i])) result_.doubtful.push_back({segment, number_of(i)});
-    }
-    for (std::size_t i = 0; s.faces_a_region && i < cuts_.size(); ++i) {
-      if (!may_hold_intervals(cuts_[i]) || is_covered(s, cuts_[i])) continue;
+    for (std::size_t i = 0; i < cuts_.size(); ++i) {
+      const bool is_doubtful = passages_ && !is_plain(s, cuts_[i]);
+      const bool has_intervals = s.faces_a_region && may_hold_intervals(cuts_[i]);
+      if (!(is_doubtful || has_intervals) || is_covered(s, cuts_[i])) continue;
       const std::uint32_t here = number_of(i);
-      result_.intervals.push_back({segment, here, here});
+      if (is_doubtful) result_.doubtful.push_back({segment, here});
+      if (has_intervals) result_.intervals.push_back({segment, here, here});
     }
     for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
       Side& after = cuts_[i].side[1];

@@ -167,7 +167,7 @@ void BoundaryMarker::mark(PointId point, bool is_saddle_point, SphereMapBuffer& 
   }
 }
 
-void BoundaryMarker::answer(const SumMembership& membership) {
+std::size_t BoundaryMarker::answer(const SumMembership& membership) {
   constexpr std::size_t kBlock = 256;
   for (std::size_t first = 0; first < questions_.size(); first += kBlock) {
     monitor_.tell_progress(kSumPhase, first, questions_.size());
@@ -176,6 +176,8 @@ void BoundaryMarker::answer(const SumMembership& membership) {
       *q.mark = *q.twin = membership.in_sum(q.point, own) ? 1 : 0;
     });
   }
+  return static_cast<std::size_t>(
+      std::count_if(questions_.begin(), questions_.end(), [](const Question& q) { return *q.mark == 0; }));
 }
 
 }  // namespace nef::minkowski

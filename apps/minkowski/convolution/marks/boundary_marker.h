@@ -42,8 +42,8 @@ class BoundaryMarker {
   /// are.
   void mark(PointId point, bool is_saddle_point, SphereMapBuffer& map);
 
-  /// Puts what is open to the definition, and tells of kSumPhase.
-  void answer(const SumMembership& membership);
+  /// Puts what is open to the definition, and tells of kSumPhase. Returns how many of these items are not in the sum.
+  std::size_t answer(const SumMembership& membership);
 
   /// Points that were put to the definition.
   [[nodiscard]] std::size_t tested() const { return questions_.size(); }

@@ -214,10 +214,29 @@ bool fits(const Complex& c, const Saddle& saddle, const Saddle& other, const Mon
   return at.kind == SphereLocation::Kind::kSFace && map.sfaces[at.index].mark == 0;
 }
 
+// Whether a short arc crosses another one, turned about the vertex (1) or does not even touch it (-1), if doubles tell;
+// else 0. As in surely_in; the normal of an arc stays as it is when the arc is turned.
+int surely_cross(const NearArc& a, const NearArc& b) {
+  const int b_from = -dot(a.normal, b.from).sign().value_or(0);
+  const int b_to = -dot(a.normal, b.to).sign().value_or(0);
+  if (b_from != 0 && b_from == b_to) return -1;
+  const int a_from = dot(b.normal, a.from).sign().value_or(0);
+  const int a_to = dot(b.normal, a.to).sign().value_or(0);
+  if (a_from != 0 && a_from == a_to) return -1;
+  if (b_from == 0 || b_to == 0 || a_from == 0 || a_to == 0) return 0;
+  return a_to == -b_to ? 1 : -1;
+}
+
 // True if an arc of one crosses one of the other, turned about the vertex: where both are, there is the inside of both.
 bool cross(const Saddle& s, const Saddle& t, const Monitor& monitor) {
-  for (const Arc& a : s.arcs) {
-    for (const Arc& b : t.arcs) {
+  const bool are_near = kFastPaths && !s.near_arcs.empty() && !t.near_arcs.empty();
+  for (std::size_t i = 0; i < s.arcs.size(); ++i) {
+    for (std::size_t k = 0; k < t.arcs.size(); ++k) {
+      const int sure = are_near ? surely_cross(s.near_arcs[i], t.near_arcs[k]) : 0;
+      if (sure > 0) return true;
+      if (sure < 0) continue;
+      const Arc& a = s.arcs[i];
+      const Arc& b = t.arcs[k];
       const Direction d = Direction::cross(a.normal, b.normal);
       if (d.is_zero()) continue;
       const Direction e = d.negated();

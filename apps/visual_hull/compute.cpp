@@ -235,7 +235,8 @@ void refine_views(const Run& run, const Scene& scene, const std::vector<Silhouet
 std::vector<ComparedView> compared(const Views& views, const Place& place) {
   std::vector<ComparedView> result;
   for (std::size_t i = 0; i < views.size(); ++i) {
-    if (!views[i].silhouette.background) result.push_back({&place.cameras[i], &views[i].silhouette.region});
+    const ViewSilhouette& s = views[i].silhouette;
+    if (!s.background) result.push_back({&place.cameras[i], &s.region, s.cut_by_frame});
   }
   return result;
 }
@@ -593,6 +594,19 @@ void hull_of_masks(const Run& run, const Scene& scene, std::vector<cv::Mat> mask
 
 Result compute(const Scene& scene, const std::filesystem::path& folder, const Options& options) {
   return HullStream(scene, options).frame(folder, std::nullopt, options.monitor);
+}
+
+Result silhouettes_of(const Scene& scene, const std::filesystem::path& folder, const Options& options) {
+  const Run run(options, options.monitor);
+  const nef::Monitor quiet = options.monitor.quiet();
+  const SilhouetteOptions silhouettes = silhouette_options(scene, options);
+  Result result;
+  result.origin = silhouettes.origin;
+  result.views = views_of(scene);
+  std::vector<Silhouette> none;
+  add_silhouettes(run, scene, masks_of(run, scene, folder, silhouettes, result, quiet), silhouettes, result, none,
+                  quiet);
+  return result;
 }
 
 struct HullStream::State {

@@ -122,6 +122,10 @@ struct Result {
 /// is no box and the cones do not bound the scene, or if the direct way is asked for and cannot be gone.
 Result compute(const Scene& scene, const std::filesystem::path& folder, const Options& options);
 
+/// The views with their silhouettes alone: `views`, `origin` and `notes` of the result of compute. Of the options,
+/// those of silhouettes and images count. Throws InputError as compute does for images.
+Result silhouettes_of(const Scene& scene, const std::filesystem::path& folder, const Options& options);
+
 /// Runs `work` and adds its time, and the predicates that it counts with what it is given, to a phase.
 void timed(PhaseReports& reports, Phase phase, const nef::Monitor& monitor,
            const std::function<void(const nef::Monitor&)>& work);

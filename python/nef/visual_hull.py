@@ -20,8 +20,8 @@ Progress = Optional[Callable[[str, int, int], object]]
 #: the board that is used if none is named
 USUAL_BOARD = "charuco:7x5,30mm,22mm,DICT_5X5"
 
-__all__ = ["CalibratedView", "Calibration", "Hull", "Masks", "RefinedView", "Refinement", "Texture", "USUAL_BOARD", "View", "board",
-           "calibrate", "compute", "masks", "read", "refine"]
+__all__ = ["CalibratedView", "Calibration", "Combination", "Hull", "Masks", "PlacedSeries", "RefinedView", "Refinement", "Texture",
+           "USUAL_BOARD", "View", "board", "calibrate", "combine", "compute", "masks", "read", "refine"]
 
 
 class View(NamedTuple):
@@ -399,3 +399,59 @@ def calibrate(photographs: Sequence[Any], board: str = USUAL_BOARD, *, lens: Seq
         answer[key] = [CalibratedView(*view)._replace(camera=None if view[3] is None else numpy.array(view[3]))
                        for view in answer[key]]
     return Calibration(**answer)
+
+
+class PlacedSeries(NamedTuple):
+    """The place of a series of views in the space of the first one. Pixels are means over all outlines."""
+
+    #: the file of its scene
+    scene: str
+    #: how many it has
+    views: int
+    #: whether the outlines of both agree nearly as well as those of each series
+    fits: bool
+    #: whether another place fits nearly as well
+    ambiguous: bool
+    #: a point X of its space is at scale * rotation @ X + translation in that of the first
+    rotation: Any
+    scale: float
+    translation: Any
+    #: by how much outlines are off within each series, among both, and where the fit did not use them
+    alone: float
+    together: float
+    held_out: float
+    #: the same of the next best place, by some of the views
+    runner_up: float
+
+
+class Combination(NamedTuple):
+    """Several series of one object in one space."""
+
+    #: whether all series fit, and the scene was written
+    fits: bool
+    #: a list of PlacedSeries, all but the first
+    series: List[PlacedSeries]
+    #: what to look at; they are warnings, too
+    notes: Sequence[str]
+
+
+def combine(scenes: Sequence[Any], scene: Any, *, min_area: float = 0, threshold: Any = None, channel: Optional[str] = None,
+            invert: bool = False, mask: Optional[str] = None, threads: int = 1) -> Combination:
+    """Places series of photographs of one rigid object, which was turned over in between, by their silhouettes.
+
+    - scenes: two files or more, one for each pose, as `read` takes them, with their images
+    - scene: the file (.json) with the cameras of all views, in the space of the first series, to be given to `read`; its hull
+      is the intersection of the hulls of all series
+    - the others: how images become silhouettes, as in `read`
+
+    If a series fits nowhere, `fits` is False and nothing is written. Raises InputError for fewer than two scenes, and for
+    images or cameras that `read` refuses.
+    """
+    if isinstance(scenes, (str, bytes, os.PathLike)):
+        raise TypeError(f"scenes must be a list of files, not {scenes!r}")
+    options = _options(min_area=min_area, threshold=threshold, channel=channel, invert=invert, mask=mask, threads=threads)
+    series, notes = _visual_hull.combine([os.fspath(file) for file in scenes], os.fspath(scene), options)
+    for note in notes:
+        warnings.warn(note, InputWarning, stacklevel=2)
+    placed = [PlacedSeries(*one)._replace(rotation=numpy.array(one[4]), translation=numpy.array(one[6])) for one in series]
+    return Combination(all(one.fits for one in placed), placed, notes)

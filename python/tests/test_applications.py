@@ -287,9 +287,10 @@ def test_texture_of_photographs(needs, tmp_path):
     assert visual_hull.compute(masks, cameras, tolerance=1, verify=False).texture is None
 
 
-def turntable_of_balls(count, focal=300, distance=4, shape=(200, 240)):
-    """Masks and cameras of a few balls on a turntable."""
+def turntable_of_balls(count, focal=300, distance=4, shape=(200, 240), turned=numpy.eye(3)):
+    """Masks and cameras of a few balls, turned over, on a turntable."""
     balls = [((0, 0, 0), .5), ((.5, .2, .3), .3), ((-.3, .5, -.3), .35), ((.1, -.6, .2), .25), ((.2, .1, .7), .2)]
+    balls = [(turned @ centre, radius) for centre, radius in balls]
     v, u = numpy.mgrid[0:shape[0], 0:shape[1]]
     masks, cameras = [], []
     for i in range(count):
@@ -336,6 +337,31 @@ def test_cameras_from_silhouettes(needs):
         visual_hull.refine(masks[:3])
     with pytest.raises(ValueError):
         visual_hull.refine(masks, cameras[:3])
+
+
+def test_series_of_an_object_that_was_turned_over(needs, tmp_path):
+    visual_hull = needs("visual_hull")
+    turned = numpy.array([[0, 0, 1], [0, -1, 0], [1, 0, 0]])  # half a turn about (1, 0, 1)
+    scenes = []
+    for name, turn in ("upright", numpy.eye(3)), ("lying", turned):
+        masks, cameras = turntable_of_balls(6, turned=turn)
+        views = []
+        for i, (mask, camera) in enumerate(zip(masks, cameras)):
+            file = tmp_path / f"{name}{i}.pgm"
+            file.write_bytes(b"P5 %d %d 255 " % mask.shape[::-1] + (255 * mask).astype(numpy.uint8).tobytes())
+            views.append({"name": str(i), "image": file.name, "P": camera.tolist()})
+        scenes.append(tmp_path / f"{name}.json")
+        scenes[-1].write_text(json.dumps({"cameras": views}))
+    made = visual_hull.combine(scenes, tmp_path / "both.json")
+    (placed,) = made.series
+    assert made.fits and not placed.ambiguous and placed.views == 6 and placed.scale == 1
+    assert abs(placed.rotation - turned.T).max() < .01 and abs(placed.translation).max() < .01
+    assert placed.together < placed.alone + .1 < placed.runner_up
+    volumes = [visual_hull.read(file, tolerance=1).solid.approximate_volume().value
+               for file in (*scenes, tmp_path / "both.json")]
+    assert volumes[2] < .97 * min(volumes[:2])
+    with pytest.raises(nef.InputError, match="two scenes"):
+        visual_hull.combine(scenes[:1], tmp_path / "one.json")
 
 
 def test_masks_of_photographs(needs, tmp_path):

@@ -206,7 +206,7 @@ def commands_of(program):
     if program == "nef":
         listed = help_of("nef").split("Subcommands:")[-1]
         return [(program, word) for word in re.findall(r"^  ([a-z]+) ", listed, re.MULTILINE)]
-    return [(program, word) for word in ("masks", "board", "calibrate")] if program == "visual_hull" else []
+    return [(program, word) for word in ("masks", "board", "calibrate", "combine")] if program == "visual_hull" else []
 
 
 @pytest.mark.parametrize("program", sorted(PROGRAMS))

@@ -21,8 +21,10 @@ namespace {
 
 const char* const kFooter =
     "Subcommands, each with a --help: visual_hull masks PHOTOGRAPHS -o DIR cuts objects out of photographs,\n"
-    "visual_hull board -o FILE.pdf makes a board for printing, and visual_hull calibrate PHOTOGRAPHS -o SCENE.json\n"
-    "finds the cameras of photographs of such a board.\n"
+    "visual_hull board -o FILE.pdf makes a board for printing, visual_hull calibrate PHOTOGRAPHS -o SCENE.json\n"
+    "finds the cameras of photographs of such a board, and visual_hull combine SCENES -o SCENE.json makes one scene "
+    "of\n"
+    "series between which the object was turned over.\n"
     "Formats of scenes are recognized by content; --check reports what was understood:\n"
     "  .json      {\"cameras\": [{\"image\": FILE, \"P\": 3x4} or {\"image\": FILE, \"K\": 3x3, \"R\": 3x3, \"t\": 3,\n"
     "             \"distortion\": [k1, k2, p1, p2, ...]}, ...], \"box\": [x0,y0,z0,x1,y1,z1], \"threshold\": "
@@ -42,6 +44,31 @@ const char* const kFooter =
     "x3 > 0 in front. Images are looked up beside the scene and in masks/, silhouettes/ and images/ there.\n"
     "-o, --report, --page and --refined-scene write a temporary file and rename it on success.\n"
     "Exit codes: 0 success, 1 empty or flat hull or failed --verify, 2 bad input or usage.";
+
+}  // namespace
+
+void add_mask_options(CLI::App& app, Arguments& a) {
+  app.add_option("--threshold", a.threshold,
+                 "N or otsu: pixels brighter than this are object (default: half of the range, or alpha)")
+      ->type_name("N");
+  app.add_option("--channel", a.channel,
+                 "Channel that --threshold compares, such as red before a blue screen (default: gray)")
+      ->check(CLI::IsMember(channel_names()));
+  app.add_option("--mask", a.mask,
+                 "The images are photographs: cut the object out of all of them by one method: " + mask_help())
+      ->type_name("METHOD");
+  app.add_flag("--invert", a.invert, "The object is darker than the background");
+  app.add_option(
+         "--pixel-origin", a.origin,
+         "Whether whole image coordinates are the center or the upper left corner of a pixel (default: by format)")
+      ->check(CLI::IsMember({"center", "corner"}));
+  app.add_option("--min-area", a.min_area,
+                 "Drop islands and fill holes of fewer square pixels (with --outer holes only)")
+      ->check(nef::not_negative())
+      ->type_name("PX2");
+}
+
+namespace {
 
 void add_input_options(CLI::App& app, Arguments& a) {
   app.add_option("SCENE", a.scene, "Cameras, in one of the formats below; with --turntable a folder of images")
@@ -75,30 +102,13 @@ void add_input_options(CLI::App& app, Arguments& a) {
                  "[VIEW=]FILE.json: polygons instead of a view's image; without VIEW, for the views in order")
       ->take_all()
       ->type_name("FILE");
-  app.add_option("--threshold", a.threshold,
-                 "N or otsu: pixels brighter than this are object (default: half of the range, or alpha)")
-      ->type_name("N");
-  app.add_option("--channel", a.channel,
-                 "Channel that --threshold compares, such as red before a blue screen (default: gray)")
-      ->check(CLI::IsMember(channel_names()));
-  app.add_option("--mask", a.mask,
-                 "The images are photographs: cut the object out of all of them by one method: " + mask_help())
-      ->type_name("METHOD");
+  add_mask_options(app, a);
   app.add_flag("--repair-masks", a.repair_masks,
                "Correct pixels of the masks of --mask that the other views contradict, and report each change");
-  app.add_flag("--invert", a.invert, "The object is darker than the background");
-  app.add_option(
-         "--pixel-origin", a.origin,
-         "Whether whole image coordinates are the center or the upper left corner of a pixel (default: by format)")
-      ->check(CLI::IsMember({"center", "corner"}));
   app.add_option("--border", a.border,
                  "A silhouette that is cut by the image frame ends there (outside) or may go on (unknown)")
       ->check(CLI::IsMember({"outside", "unknown"}))
       ->capture_default_str();
-  app.add_option("--min-area", a.min_area,
-                 "Drop islands and fill holes of fewer square pixels (with --outer holes only)")
-      ->check(nef::not_negative())
-      ->type_name("PX2");
   app.add_option("--simplify", a.simplify, "Simplify polygons within this many pixels")
       ->check(nef::not_negative())
       ->type_name("PX");

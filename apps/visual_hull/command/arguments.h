@@ -64,6 +64,9 @@ struct Arguments {
 /// The methods of --mask, for the help.
 std::string mask_help();
 
+/// Declares the options that say how images become silhouettes.
+void add_mask_options(CLI::App& app, Arguments& arguments);
+
 /// Declares all options, the version, the footer of the help.
 void add_options(CLI::App& app, Arguments& arguments);
 

@@ -58,20 +58,6 @@ nef::view::SurfaceColors textured_surface(const nef::view::Scene& scene, HullTex
   return surface;
 }
 
-Layer hull_layer(const Result& result, PixelOrigin origin, const nef::Monitor& monitor, HullColors colors) {
-  Layer layer;
-  layer.name = "hull";
-  layer.scene = nef::view::build_scene(result.hull, {}, monitor);
-  if (colors == HullColors::kPlain || layer.scene.triangles.empty()) return layer;
-  const nef::Mesh mesh = mesh_of(layer.scene);
-  if (colors == HullColors::kVertices) {
-    layer.surface.vertices = vertex_colors(mesh, result.views, origin, monitor).colors;
-  } else {
-    layer.surface = textured_surface(layer.scene, hull_texture(mesh, result.views, origin, monitor));
-  }
-  return layer;
-}
-
 // Where a camera's image hangs: halfway to the hull, or in it for a camera that stands in it.
 double image_depth(const Camera& camera, const Result& result) {
   WorldBox box = result.box;
@@ -180,9 +166,23 @@ void add_outline(Layer& layer, const ViewResult& view, const ImagePlane& plane) 
 
 }  // namespace
 
-std::vector<Layer> page_layers(const Result& result, PixelOrigin origin, const nef::Monitor& monitor,
-                               HullColors colors) {
-  std::vector<Layer> layers{hull_layer(result, origin, monitor, colors)};
+Layer hull_layer(const Result& result, PixelOrigin origin, const nef::Monitor& monitor, HullColors colors) {
+  Layer layer;
+  layer.name = "hull";
+  layer.scene = nef::view::build_scene(result.hull, {}, monitor);
+  if (colors == HullColors::kPlain || layer.scene.triangles.empty()) return layer;
+  const nef::Mesh mesh = mesh_of(layer.scene);
+  if (colors == HullColors::kVertices) {
+    layer.surface.vertices = vertex_colors(mesh, result.views, origin, monitor).colors;
+  } else {
+    layer.surface = textured_surface(layer.scene, hull_texture(mesh, result.views, origin, monitor));
+  }
+  return layer;
+}
+
+std::vector<Layer> page_layers(const Result& result, PixelOrigin origin, Layer hull) {
+  std::vector<Layer> layers;
+  layers.push_back(std::move(hull));
   Layer cameras;
   cameras.name = "cameras";
   cameras.color = kCameraColor;
@@ -198,16 +198,10 @@ std::vector<Layer> page_layers(const Result& result, PixelOrigin origin, const n
   return layers;
 }
 
-void write_page(const Result& result, PixelOrigin origin, const fs::path& file, const nef::Monitor& monitor,
-                HullColors colors) {
+void write_page(const Result& result, PixelOrigin origin, Layer hull, const fs::path& file) {
   nef::view::PageOptions options;
   options.title = "visual hull of " + std::to_string(result.views.size()) + " views";
-  nef::view::write_page(page_layers(result, origin, monitor, colors), file.string(), options);
-}
-
-void write_hull_picture(const Result& result, PixelOrigin origin, const fs::path& file, const nef::Monitor& monitor,
-                        HullColors colors, const nef::view::PictureOptions& options) {
-  nef::view::write_picture({hull_layer(result, origin, monitor, colors)}, file.string(), options);
+  nef::view::write_page(page_layers(result, origin, std::move(hull)), file.string(), options);
 }
 
 }  // namespace nef::visual_hull

@@ -18,17 +18,16 @@ enum class HullColors : std::uint8_t {
   kTexture,   ///< by an image (hull_texture.h)
 };
 
-/// The layers of a page: the hull, and the cameras, each with its image (or the polygon that it has in its place) on a
-/// plane between camera and hull. Images that are large, distorted, or no PNG or JPEG are embedded as smaller PNGs.
-std::vector<nef::view::Layer> page_layers(const Result& result, PixelOrigin origin, const nef::Monitor& monitor,
-                                          HullColors colors = HullColors::kPlain);
+/// The hull as pages and pictures show it. Colours are found here, once for all of them.
+nef::view::Layer hull_layer(const Result& result, PixelOrigin origin, const nef::Monitor& monitor,
+                            HullColors colors = HullColors::kPlain);
+
+/// The layers of a page: the hull (hull_layer), and the cameras, each with its image (or the polygon that it has in its
+/// place) on a plane between camera and hull. Images that are large, distorted, or no PNG or JPEG are embedded as
+/// smaller PNGs.
+std::vector<nef::view::Layer> page_layers(const Result& result, PixelOrigin origin, nef::view::Layer hull);
 
 /// Writes the page. Throws nef::Error if the file cannot be written or the viewer was not built.
-void write_page(const Result& result, PixelOrigin origin, const std::filesystem::path& file,
-                const nef::Monitor& monitor, HullColors colors = HullColors::kPlain);
-
-/// Draws the hull alone into a PNG file. Throws nef::Error if the file cannot be written.
-void write_hull_picture(const Result& result, PixelOrigin origin, const std::filesystem::path& file,
-                        const nef::Monitor& monitor, HullColors colors, const nef::view::PictureOptions& options = {});
+void write_page(const Result& result, PixelOrigin origin, nef::view::Layer hull, const std::filesystem::path& file);
 
 }  // namespace nef::visual_hull

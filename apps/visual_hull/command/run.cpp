@@ -16,8 +16,10 @@
 
 #include "apps/program/nearest_word.h"
 #include "apps/program/run_program.h"
+#include "apps/view/picture.h"
 #include "apps/visual_hull/command/arguments.h"
 #include "apps/visual_hull/command/calibrate_run.h"
+#include "apps/visual_hull/command/combine_run.h"
 #include "apps/visual_hull/command/frames.h"
 #include "apps/visual_hull/command/hull_file.h"
 #include "apps/visual_hull/command/hull_masks.h"
@@ -122,8 +124,12 @@ void write_hull_files(const Arguments& a, const Result& result, const nef::Monit
     session.show_phase("writing " + path);
     work();
   };
-  write(a.page, [&] { write_page(result, result.origin, a.page, monitor, colors); });
-  write(a.picture, [&] { write_hull_picture(result, result.origin, a.picture, monitor, colors); });
+  if (!a.page.empty() || !a.picture.empty()) {
+    session.show_phase("drawing the hull");
+    nef::view::Layer hull = hull_layer(result, result.origin, monitor, colors);
+    write(a.picture, [&] { nef::view::write_picture({hull}, a.picture, {}); });
+    write(a.page, [&] { write_page(result, result.origin, std::move(hull), a.page); });
+  }
   write(a.hull_masks, [&] { write_hull_masks(result, a.hull_masks); });
   write(a.points, [&] {
     const PointCloud cloud = sample_hull(result, a.samples, monitor);
@@ -214,6 +220,7 @@ int run_command(int argc, char** argv) {
   if (first == "masks") return run_masks_command(argc - 1, argv + 1);
   if (first == "board") return run_board_command(argc - 1, argv + 1);
   if (first == "calibrate") return run_calibrate_command(argc - 1, argv + 1);
+  if (first == "combine") return run_combine_command(argc - 1, argv + 1);
   nef::Session session("visual_hull", std::cout, std::cerr);
   const nef::ProgressFunction show = [&session](const char* phase, std::size_t done, std::size_t total) {
     session.show_phase(phase, done, total);

@@ -242,7 +242,9 @@ std::vector<MovingCamera> fit(const std::vector<MovingCamera>& start, const std:
   std::vector<MovingCamera> cameras = start;
   for (const double scale : options.scales) {
     const Ball ball = object_ball(cameras, outlines);
-    const Stage stage{start, outlines, options, ball, ball_points(ball.centre, ball.radius / 1.3), scale, monitor};
+    // What is determined has come nearer to its place at coarser scales and is not to be held by where it began.
+    const std::vector<MovingCamera> held = cameras;
+    const Stage stage{held, outlines, options, ball, ball_points(ball.centre, ball.radius / 1.3), scale, monitor};
     run_stage(stage, cameras);
   }
   return cameras;

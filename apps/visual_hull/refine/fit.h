@@ -60,7 +60,7 @@ struct FitOptions {
 };
 
 /// Levenberg and Marquardt's method on the residuals min(0, coherence) with the loss of [Geman, McClure 1987]. Motions
-/// are held by a weak prior (a 300th of a pixel for each pixel that a view moves from `start`), so that what outlines
+/// are held by a weak prior (a 300th of a pixel for each pixel that a view moves at a scale), so that what outlines
 /// do not determine stays. The position, orientation and size of the scene are free (moving_camera.h: similarity).
 /// O(rounds) times `measure`.
 std::vector<MovingCamera> fit(const std::vector<MovingCamera>& start, const std::vector<Outline>& outlines,

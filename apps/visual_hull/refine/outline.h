@@ -12,8 +12,8 @@
 namespace nef::visual_hull::refine {
 
 /// A smooth signed distance to the border of a silhouette, in pixels: positive inside. The staircase of pixels is
-/// blurred away (a Gaussian of one pixel). Where the frame of the image cuts the silhouette, the distance goes on
-/// beyond it as it is at the frame, so that nobody is sure of what the image does not show.
+/// smoothed away (by two pixels, without a bias by curvature). Where the frame of the image cuts the silhouette, the
+/// distance goes on beyond it as it is at the frame, so that nobody is sure of what the image does not show.
 class DistanceField {
  public:
   DistanceField() = default;

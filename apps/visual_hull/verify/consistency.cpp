@@ -294,7 +294,10 @@ Consistency compare_views(const std::vector<ComparedView>& compared, const World
     result.residual += view.residual;
   }
   score(result.views);
-  const std::vector<std::size_t> order = result.ranked();
+  std::vector<std::size_t> order = result.ranked();
+  order.erase(std::remove_if(order.begin(), order.end(), [&](std::size_t v) { return compared[v].cut_by_frame; }),
+              order.end());
+  if (order.size() < 2) return result;
   const double lead = result.views[order[0]].score - result.views[order[1]].score;
   const ViewConsistency& first = result.views[order[0]];
   const bool seen = first.fall * static_cast<double>(lines.rays()) >= kFewestLines;

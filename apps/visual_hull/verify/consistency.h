@@ -14,6 +14,7 @@ namespace nef::visual_hull {
 struct ComparedView {
   const Camera* camera = nullptr;
   const Silhouette* silhouette = nullptr;
+  bool cut_by_frame = false;  ///< it may disagree because of what its image does not show, so it is not accused
 };
 
 /// What is known about one view. A point is rejected by the views that do not see it in their silhouettes.
@@ -39,9 +40,9 @@ struct Consistency {
 /// Compares views by up to 300 lines of sight a view, spread evenly over its silhouette, each cut by all other
 /// silhouettes in their images. The residual accuses the innocent (a mask that lost a part leaves residuals in all
 /// *other* views); D and d do not: see docs/visual_hull.md. A view is guilty if its score exceeds 1.5 and the second
-/// one by 0.4, and D comes from four lines of sight or more; with up to five views the score is that of D alone. `box`
-/// bounds the part of space that is looked at (grown to thrice its size).
-/// O(views^2 (rays + vertices of a silhouette)).
+/// one by 0.4, and D comes from four lines of sight or more; with up to five views the score is that of D alone. Views
+/// that the frame cuts are compared, and neither accused nor among those that the score has to exceed. `box` bounds the
+/// part of space that is looked at (grown to thrice its size). O(views^2 (rays + vertices of a silhouette)).
 Consistency compare_views(const std::vector<ComparedView>& views, const WorldBox& box, const nef::Monitor& monitor);
 
 /// Smallest sets of at most four views that have no point in common as far as the lines of sight tell: what remains is

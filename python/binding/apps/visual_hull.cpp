@@ -14,6 +14,7 @@
 #include "apps/view/image.h"
 #include "apps/visual_hull/calibrate/board_sheet.h"
 #include "apps/visual_hull/calibrate/calibrate.h"
+#include "apps/visual_hull/combine/combine.h"
 #include "apps/visual_hull/formats/read_scene.h"
 #include "apps/visual_hull/formats/turntable.h"
 #include "apps/visual_hull/formats/write_scene.h"
@@ -441,6 +442,37 @@ py::dict calibrate(const std::vector<std::string>& photographs, const std::strin
   return result;
 }
 
+// (scene, views, whether it fits, whether another place does, rotation, scale, translation, pixels alone, together,
+// held out, next best place)
+py::tuple placed_tuple(const nef::visual_hull::PlacedSeries& series) {
+  const nef::visual_hull::Placement& p = series.placement;
+  const nef::visual_hull::refine::Similarity to_first = p.to_first();
+  std::array<std::array<double, 3>, 3> rotation{};
+  std::array<double, 3> translation{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    for (std::size_t j = 0; j < 3; ++j) rotation[i][j] = to_first.rotation(row, static_cast<Eigen::Index>(j));
+    translation[i] = to_first.shift[row];
+  }
+  return py::make_tuple(series.name, series.views, p.fits(), p.ambiguous(), rotation, to_first.scale, translation,
+                        p.alone_px, p.together_px, p.held_out_px, p.runner_up_px);
+}
+
+// The series but the first, and notes; the scene is written if all series fit.
+py::tuple combine(const std::vector<std::string>& scenes, const std::string& file,
+                  const nef::visual_hull::Options& options) {
+  const nef::visual_hull::Combined made = call(kSmallCall, [=](const Monitor& monitor) {
+    nef::visual_hull::Options watched = options;
+    watched.monitor = monitor.on_threads(options.monitor.threads());
+    nef::visual_hull::Combined found = nef::visual_hull::combine({scenes.begin(), scenes.end()}, watched);
+    if (found.fits()) nef::visual_hull::write_scene_file(file, found.scene);
+    return found;
+  });
+  py::list series;
+  for (const nef::visual_hull::PlacedSeries& placed : made.series) series.append(placed_tuple(placed));
+  return py::make_tuple(series, made.notes);
+}
+
 void define_module(py::module_& m) {
   m.doc() = "The core of the package nef.visual_hull; see there.";
   py::module_::import("nef._nef");
@@ -454,6 +486,7 @@ void define_module(py::module_& m) {
   m.def("masks", &masks);
   m.def("board", &board);
   m.def("calibrate", &calibrate);
+  m.def("combine", &combine);
 }
 
 }  // namespace

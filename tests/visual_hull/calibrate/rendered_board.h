@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -59,71 +60,39 @@ inline std::vector<BoardCamera> turntable_before(const Lens& lens, int count, do
 struct Egg {
   Eigen::Vector3d centre{0, 0, 32};
   Eigen::Vector3d axes{24, 18, 30};
-
-  /// Whether a ray from a point meets it. Plain numbers: it is asked millions of times.
-  [[nodiscard]] bool met(const std::array<double, 3>& from, const std::array<double, 3>& along) const {
-    double pd = 0;
-    double dd = 0;
-    double pp = 0;
-    for (int i = 0; i < 3; ++i) {
-      const double p = (from[static_cast<std::size_t>(i)] - centre[i]) / axes[i];
-      const double d = along[static_cast<std::size_t>(i)] / axes[i];
-      pd += p * d;
-      dd += d * d;
-      pp += p * p;
-    }
-    return pd < 0 && pd * pd >= dd * (pp - 1);
-  }
 };
 
 /// What lies where in a picture.
 struct Photographed {
   cv::Mat picture;  ///< three channels of 8 bits
-  cv::Mat mask;     ///< 255 where at least half of a pixel shows the object
+  cv::Mat mask;     ///< 255 where the middle of a pixel shows the object
 };
 
-/// Renders a board on a gray table, torn along its middle: its right half has moved up by so many millimetres.
+/// Renders a board on a gray table, torn along its middle: its right half has moved up by so many millimetres. All
+/// work is done by OpenCV on whole images, so it is quick in builds with sanitizers, too.
 class BoardStudio {
  public:
   explicit BoardStudio(const Board& board, std::optional<Egg> egg = {}, double torn = 0)
-      : board_(board), sheet_(board_picture(board, kPixels)), egg_(std::move(egg)), torn_(torn) {}
+      : board_(board), egg_(std::move(egg)), torn_(torn) {
+    cv::cvtColor(board_picture(board, kPixels), sheet_, cv::COLOR_BGR2GRAY);
+    sheet_.convertTo(sheet_, -1, 0.75, 25);
+  }
 
   [[nodiscard]] Photographed photograph(const BoardCamera& camera, std::uint64_t seed, double noise = 3) const {
-    const ImageSize size = *camera.lens.size;
-    const cv::Mat rays = rays_of(camera.lens);
-    Photographed result{cv::Mat(size.height, size.width, CV_8UC3), cv::Mat(size.height, size.width, CV_8U)};
-    const Eigen::Vector3d centre = camera.centre();
-    const std::array<double, 3> from{centre.x(), centre.y(), centre.z()};
-    const Eigen::Matrix3d& r = camera.pose.rotation;
-    const std::array<double, 9> turn{r(0, 0), r(1, 0), r(2, 0), r(0, 1), r(1, 1), r(2, 1), r(0, 2), r(1, 2), r(2, 2)};
-    for (int y = 0; y < size.height; ++y) {
-      const auto* const row = rays.ptr<double>(y);
-      const auto* const below = rays.ptr<double>(y + 1);
-      for (int x = 0; x < size.width; ++x) {
-        std::array<double, 3> sum{};
-        for (int k = 0; k < kSub * kSub; ++k) {
-          const double dx = (k % kSub + 0.5) / kSub - 0.5;
-          const int line = k / kSub;
-          const double dy = (line + 0.5) / kSub - 0.5;
-          const double u = row[2 * x] + dx * (row[2 * x + 2] - row[2 * x]) + dy * (below[2 * x] - row[2 * x]);
-          const double v =
-              row[2 * x + 1] + dx * (row[2 * x + 3] - row[2 * x + 1]) + dy * (below[2 * x + 1] - row[2 * x + 1]);
-          const std::array<double, 3> along{turn[0] * u + turn[1] * v + turn[2], turn[3] * u + turn[4] * v + turn[5],
-                                            turn[6] * u + turn[7] * v + turn[8]};
-          const bool object = egg_ && egg_->met(from, along);
-          const double gray = object ? 0 : seen_on_table(from, along);
-          constexpr std::array<double, 3> kPaint{30, 40, 200};
-          for (std::size_t c = 0; c < 3; ++c) sum[c] += object ? kPaint[c] : gray;
-          if (k == 0) result.mask.ptr<std::uint8_t>(y)[x] = 0;
-          if (object) result.mask.ptr<std::uint8_t>(y)[x] += 255 / (kSub * kSub);
-        }
-        for (std::size_t c = 0; c < 3; ++c) {
-          result.picture.ptr<std::uint8_t>(y)[3 * x + static_cast<int>(c)] =
-              static_cast<std::uint8_t>(sum[c] / (kSub * kSub));
-        }
-      }
+    const cv::Mat middles = rays_of(camera.lens);
+    cv::Mat rays;  // four of each pixel
+    cv::resize(middles, rays, {}, 2, 2, cv::INTER_LINEAR);
+    const Eigen::Vector3d from = camera.centre();
+    const Eigen::Matrix3d turn = camera.pose.rotation.transpose();
+    cv::Mat picture;
+    cv::cvtColor(table(rays, from, turn), picture, cv::COLOR_GRAY2BGR);
+    Photographed result;
+    result.mask = cv::Mat(middles.size(), CV_8U, cv::Scalar(0));
+    if (egg_) {
+      result.mask = object_in(middles, from, turn);
+      picture.setTo(cv::Scalar(30, 40, 200), object_in(rays, from, turn));
     }
-    result.mask = result.mask > 127;
+    cv::resize(picture, result.picture, {}, 0.5, 0.5, cv::INTER_AREA);
     cv::RNG random(seed);
     cv::Mat grain(result.picture.size(), CV_16SC3);
     random.fill(grain, cv::RNG::NORMAL, 0, noise);
@@ -133,30 +102,58 @@ class BoardStudio {
 
  private:
   static constexpr double kPixels = 6;  // a millimetre
-  static constexpr int kSub = 2;
+  static constexpr double kTable = 120;
 
-  // Where pixels look, with a row and a column more than there are.
+  // Where the middles of pixels look: (u, v) of directions (u, v, 1) of the camera's frame.
   static cv::Mat rays_of(const Lens& lens) {
     std::vector<cv::Point2d> pixels;
-    for (int y = 0; y <= lens.size->height; ++y) {
-      for (int x = 0; x <= lens.size->width; ++x) pixels.emplace_back(x, y);
+    for (int y = 0; y < lens.size->height; ++y) {
+      for (int x = 0; x < lens.size->width; ++x) pixels.emplace_back(x, y);
     }
     const cv::Mat k = (cv::Mat_<double>(3, 3) << lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1);
     cv::Mat rays;
     cv::undistortPoints(pixels, rays, k, lens.distortion);
-    return rays.reshape(2, lens.size->height + 1);
+    rays.reshape(2, lens.size->height).convertTo(rays, CV_32F);
+    return rays;
   }
 
-  [[nodiscard]] double seen_on_table(const std::array<double, 3>& from, const std::array<double, 3>& along) const {
-    if (!(along[2] < 0)) return 90;
-    const double t = -from[2] / along[2];
-    const double at = from[0] + t * along[0];
-    const double right = at + board_.width() / 2 + board_.square;
-    const double down = board_.height() / 2 - from[1] - t * along[1] + board_.square + (at > 0 ? torn_ : 0);
-    const int x = static_cast<int>(std::floor(right * kPixels));
-    const int y = static_cast<int>(std::floor(down * kPixels));
-    if (x < 0 || y < 0 || x >= sheet_.cols || y >= sheet_.rows) return 120;
-    return 0.75 * sheet_.ptr<std::uint8_t>(y)[3 * x] + 25;
+  // The table and the sheet on it. A ray meets the plane at a point whose coordinates are fractions of linear functions
+  // of (u, v, 1).
+  [[nodiscard]] cv::Mat table(const cv::Mat& rays, const Eigen::Vector3d& from, const Eigen::Matrix3d& turn) const {
+    const Eigen::RowVector3d depth = turn.row(2);
+    const Eigen::RowVector3d x = from.x() * depth - from.z() * turn.row(0);
+    const Eigen::RowVector3d y = from.y() * depth - from.z() * turn.row(1);
+    Eigen::Matrix3d h;
+    h << kPixels * (x + (board_.width() / 2 + board_.square) * depth) - 0.5 * depth,
+        kPixels * ((board_.height() / 2 + board_.square) * depth - y) - 0.5 * depth, depth;
+    const cv::Mat homography =
+        (cv::Mat_<double>(3, 3) << h(0, 0), h(0, 1), h(0, 2), h(1, 0), h(1, 1), h(1, 2), h(2, 0), h(2, 1), h(2, 2));
+    cv::Mat places;
+    cv::perspectiveTransform(rays, places, homography);
+    if (torn_ != 0) {
+      std::array<cv::Mat, 2> parts;
+      cv::split(places, parts);
+      cv::add(parts[1], cv::Scalar(torn_ * kPixels), parts[1],
+              parts[0] > kPixels * (board_.width() / 2 + board_.square) - 0.5);
+      cv::merge(parts, places);
+    }
+    cv::Mat seen;
+    cv::remap(sheet_, seen, places, cv::noArray(), cv::INTER_NEAREST, cv::BORDER_CONSTANT, cv::Scalar(kTable));
+    return seen;
+  }
+
+  // 255 where a ray meets the object: where a quadratic form of (u, v, 1) is not negative.
+  [[nodiscard]] cv::Mat object_in(const cv::Mat& rays, const Eigen::Vector3d& from, const Eigen::Matrix3d& turn) const {
+    const Eigen::Vector3d p = (from - egg_->centre).cwiseQuotient(egg_->axes);
+    const Eigen::Matrix3d along = egg_->axes.cwiseInverse().asDiagonal() * turn;
+    const Eigen::Matrix3d q =
+        along.transpose() * (p * p.transpose() - (p.squaredNorm() - 1) * Eigen::Matrix3d::Identity()) * along;
+    std::array<cv::Mat, 2> parts;
+    cv::split(rays, parts);
+    const auto& [u, v] = parts;
+    const cv::Mat form =
+        u.mul(q(0, 0) * u + 2 * q(0, 1) * v + 2 * q(0, 2)) + v.mul(q(1, 1) * v + 2 * q(1, 2)) + q(2, 2);
+    return form >= 0;
   }
 
   Board board_;

@@ -32,7 +32,8 @@ std::array<double, 2> seen_at(const Camera& camera, const nef::view::Point& p) {
 
 TEST_CASE("A page has the hull, and each camera with its image where the camera sees it") {
   const Result result = eight();
-  const std::vector<nef::view::Layer> layers = page_layers(result, PixelOrigin::kCenter, {});
+  const std::vector<nef::view::Layer> layers =
+      page_layers(result, PixelOrigin::kCenter, hull_layer(result, PixelOrigin::kCenter, {}));
   REQUIRE(layers.size() == 2);
   CHECK(layers[0].name == "hull");
   CHECK(layers[0].scene.facets.size() == nef::counts(result.hull).facets);
@@ -58,11 +59,11 @@ TEST_CASE("A page has the hull, and each camera with its image where the camera 
 
 TEST_CASE("Views of polygons show their outline and lines of sight, corner origins shift the frame") {
   const Result letters = compute(read_scene(hull_data("letters/mpi.vsh")), {}, {});
-  const auto layers = page_layers(letters, PixelOrigin::kCenter, {});
+  const auto layers = page_layers(letters, PixelOrigin::kCenter, hull_layer(letters, PixelOrigin::kCenter, {}));
   CHECK(layers[1].photos.empty());
   CHECK(layers[1].lines.size() == 4 + 3 * 4);  // four rings, four lines of sight for each camera
   const Result result = eight();
-  const auto corner = page_layers(result, PixelOrigin::kCorner, {});
+  const auto corner = page_layers(result, PixelOrigin::kCorner, hull_layer(result, PixelOrigin::kCorner, {}));
   const auto at = seen_at(result.views[0].camera, corner[1].photos[0].corners[2]);
   CHECK(at[0] == Approx(320).margin(1e-6));
   CHECK(at[1] == Approx(240).margin(1e-6));
@@ -75,7 +76,7 @@ TEST_CASE("Images that browsers do not know become PNGs") {
   result.views.resize(1);
   result.views[0].image = s.folder() / "view.bmp";
   cv::imwrite(result.views[0].image.string(), image);
-  const auto layers = page_layers(result, PixelOrigin::kCenter, {});
+  const auto layers = page_layers(result, PixelOrigin::kCenter, hull_layer(result, PixelOrigin::kCenter, {}));
   REQUIRE(layers[1].photos.size() == 1);
   CHECK(layers[1].photos[0].media_type == "image/png");
   const std::string& bytes = layers[1].photos[0].bytes;
@@ -86,7 +87,8 @@ TEST_CASE("Images that browsers do not know become PNGs") {
 TEST_CASE("With the views compared, a page shows what the hull does not cover of a silhouette, in yellow") {
   Result result = eight();
   const auto yellow = [&result] {
-    const std::string bytes = page_layers(result, PixelOrigin::kCenter, {})[1].photos[0].bytes;
+    const std::string bytes =
+        page_layers(result, PixelOrigin::kCenter, hull_layer(result, PixelOrigin::kCenter, {}))[1].photos[0].bytes;
     const cv::Mat picture = cv::imdecode(std::vector<char>(bytes.begin(), bytes.end()), cv::IMREAD_COLOR);
     cv::Mat found;
     cv::inRange(picture, cv::Scalar(0, 150, 200), cv::Scalar(160, 255, 255), found);
@@ -107,7 +109,7 @@ TEST_CASE("A page is one file with all images in it") {
   const Scratch s;
   const Result result = eight();
   const std::filesystem::path page = s.folder() / "page.html";
-  write_page(result, PixelOrigin::kCenter, page, {});
+  write_page(result, PixelOrigin::kCenter, hull_layer(result, PixelOrigin::kCenter, {}), page);
   const std::string text = nef::read_file(page.string());
   CHECK(text.find("visual hull of 12 views") != std::string::npos);
   CHECK(text.size() > 100000);

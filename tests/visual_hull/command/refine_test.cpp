@@ -73,7 +73,7 @@ TEST_CASE("The hull of a refined scene is that of the run that wrote it, byte fo
 
 TEST_CASE("A folder of masks of a turntable becomes a hull without any camera") {
   const Scratch scratch;
-  const testing::Set set = testing::rendered_set(testing::generic_object(8), testing::ring(12, true));
+  const testing::Set set = testing::rendered_set(testing::generic_object(8), testing::ring(8, true));
   const fs::path masks = scratch.folder() / "masks";
   fs::create_directories(masks);
   for (std::size_t i = 0; i < set.masks.size(); ++i) {
@@ -82,7 +82,7 @@ TEST_CASE("A folder of masks of a turntable becomes a hull without any camera") 
   const std::string first = (scratch.folder() / "first.nef").string();
   const std::string second = (scratch.folder() / "second.nef").string();
   const std::string refined = (scratch.folder() / "refined.json").string();
-  const Outcome made = run(masks.string() + " --turntable 12 --refine --simplify 1 -o " + first + " --refined-scene " +
+  const Outcome made = run(masks.string() + " --turntable 8 --refine --simplify 1 -o " + first + " --refined-scene " +
                            refined + " --verify");
   INFO(made.output);
   REQUIRE(made.code == 0);
@@ -90,7 +90,7 @@ TEST_CASE("A folder of masks of a turntable becomes a hull without any camera") 
   const Outcome again = run(refined + " --simplify 1 -o " + second);
   REQUIRE(again.code == 0);
   CHECK(nef::read_file(first) == nef::read_file(second));
-  const Outcome without = run(masks.string() + " --turntable 12");
+  const Outcome without = run(masks.string() + " --turntable 8");
   CHECK(without.code == 2);
   CHECK_THAT(without.output, Contains("or --refine to find it"));
 }

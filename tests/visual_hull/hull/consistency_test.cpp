@@ -167,6 +167,26 @@ TEST_CASE("The comparison does not depend on the number of threads", "[threads]"
   }
 }
 
+TEST_CASE("A view that the frame cuts is compared and not accused") {
+  const Copy copy("elk");
+  copy.damage(3, shifted(copy.mask(3), 8, 6));
+  const Result seen = copy.compare();
+  REQUIRE(seen.consistency->guilty == std::size_t{3});
+  std::vector<ComparedView> views;
+  for (const ViewResult& view : seen.views) views.push_back({&view.camera, &view.silhouette.region});
+  views[3].cut_by_frame = true;
+  const Consistency found = compare_views(views, seen.box, {});
+  CHECK_FALSE(found.guilty.has_value());
+  CHECK(found.ranked()[0] == 3);
+  // A mask that runs to the border of its image is such a view.
+  cv::Mat mask = copy.mask(3);
+  mask.row(mask.rows / 2).setTo(255);
+  copy.damage(3, mask);
+  const Result cut = copy.compare();
+  CHECK(cut.consistency->ranked()[0] == 3);
+  CHECK_FALSE(cut.consistency->guilty.has_value());
+}
+
 // Known by arithmetic: three cameras far away on the axes, so that cones are nearly prisms, all seeing [-1, 1]^2 but
 // for one that sees the half x < 0 of it. What it alone rejects is half of the cube.
 TEST_CASE("Volumes that one view alone rejects") {

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "apps/visual_hull/refine/refine.h"
+#include "apps/visual_hull/visual_hull.h"
+#include "nef/query/measures/approximate_volume.h"
 #include "tests/visual_hull/refine/rendered.h"
 
 namespace nef::visual_hull::testing {
@@ -72,6 +74,21 @@ inline Difference difference(const std::vector<Camera>& cameras, const std::vect
   }
   result.pixels = std::sqrt(sum / static_cast<double>(moving.size()));
   return result;
+}
+
+/// The volume of the hull of a set, seen by cameras.
+inline double volume_of_hull(const Set& set, const std::vector<Camera>& cameras) {
+  Scene scene;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    View view;
+    view.name = std::to_string(i);
+    view.camera = cameras[i];
+    view.polygons = set.silhouettes[i].rings;
+    scene.views.push_back(view);
+  }
+  Options options;
+  options.silhouette.simplify.tolerance = 0.5;
+  return nef::approximate_volume(compute(scene, "", options).hull).value;
 }
 
 }  // namespace nef::visual_hull::testing

@@ -8,9 +8,7 @@
 #include <catch2/catch.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "apps/visual_hull/visual_hull.h"
 #include "nef/base/error.h"
-#include "nef/query/measures/approximate_volume.h"
 #include "tests/visual_hull/refine/camera_difference.h"
 #include "tests/visual_hull/refine/rendered.h"
 
@@ -31,20 +29,6 @@ using testing::rendered_set;
 using testing::ring;
 using testing::Set;
 using testing::Shot;
-
-double volume_of_hull_by(const Set& set, const std::vector<Camera>& cameras) {
-  Scene scene;
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    View view;
-    view.name = std::to_string(i);
-    view.camera = cameras[i];
-    view.polygons = set.silhouettes[i].rings;
-    scene.views.push_back(view);
-  }
-  Options options;
-  options.silhouette.simplify.tolerance = 0.5;
-  return nef::approximate_volume(compute(scene, "", options).hull).value;
-}
 
 // Takes the lowest rows of a mask away, up to a share of its pixels.
 void cut_lowest(Set& set, std::size_t view, double share) {
@@ -73,8 +57,8 @@ TEST_CASE("Cameras half a degree, 5 pixels and 1 % off come within .4 pixels of 
     CHECK(result.after.mean < result.before.mean / 10);
     CHECK(result.held_out_after.mean < result.held_out_before.mean / 10);
     // Lengths are those of the given cameras, so volumes are compared in the scale of the truth.
-    const double volume = volume_of_hull_by(set, cameras_by(result)) / std::pow(after.scale, 3);
-    CHECK(volume == Approx(volume_of_hull_by(set, cameras_by(set.truth))).epsilon(0.005));
+    const double volume = testing::volume_of_hull(set, cameras_by(result)) / std::pow(after.scale, 3);
+    CHECK(volume == Approx(testing::volume_of_hull(set, cameras_by(set.truth))).epsilon(0.005));
   }
 }
 

@@ -118,12 +118,15 @@ TEST_CASE("Pages and pictures show colours and textures") {
   Options options;
   options.silhouette.simplify.tolerance = 1;
   const Result result = compute(read_scene(scene_in(scratch)), scratch.folder(), options);
-  const auto layer = page_layers(result, result.origin, {}, HullColors::kVertices)[0];
+  const auto layer =
+      page_layers(result, result.origin, hull_layer(result, result.origin, {}, HullColors::kVertices))[0];
   CHECK(layer.surface.vertices.size() == layer.scene.vertices.size());
   CHECK_FALSE(layer.surface.has_image());
-  const auto textured = page_layers(result, result.origin, {}, HullColors::kTexture)[0];
+  const auto textured =
+      page_layers(result, result.origin, hull_layer(result, result.origin, {}, HullColors::kTexture))[0];
   CHECK(textured.surface.places.size() == 3 * textured.scene.triangles.size());
-  write_hull_picture(result, result.origin, file, {}, HullColors::kTexture, {.from = {}, .width = 240, .height = 180});
+  nef::view::write_picture({hull_layer(result, result.origin, {}, HullColors::kTexture)}, file,
+                           {.from = {}, .width = 240, .height = 180});
   // The picture shows the ellipsoid's colours in the middle, from where it is taken.
   const cv::Mat picture = cv::imread(file);
   REQUIRE(picture.size() == cv::Size(240, 180));

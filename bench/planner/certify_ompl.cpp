@@ -16,9 +16,9 @@
 #include <ompl/util/RandomNumbers.h>
 
 #ifdef BENCH_WITH_FCL
-#include <fcl/geometry/bvh/BVH_model.h>
-#include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/continuous_collision.h>
+
+#include "bench/planner/fcl_bodies.h"
 #endif
 
 #include <algorithm>
@@ -44,23 +44,6 @@ using nlohmann::json;
 using Checker = std::shared_ptr<const MotionChecker>;
 
 #ifdef BENCH_WITH_FCL
-using Model = fcl::BVHModel<fcl::OBBRSSd>;
-
-std::shared_ptr<Model> model_of(const RigidBody& body) {
-  auto model = std::make_shared<Model>();
-  model->beginModel();
-  for (const RigidBody::Piece& piece : body.pieces()) {
-    for (std::size_t f = 0; f < piece.mesh.face_count(); ++f) {
-      const auto ring = piece.mesh.face(f);
-      for (std::size_t i = 2; i < ring.size(); ++i) {
-        model->addTriangle(piece.points[ring[0]], piece.points[ring[i - 1]], piece.points[ring[i]]);
-      }
-    }
-  }
-  model->endModel();
-  return model;
-}
-
 fcl::Transform3d transform_of(const ob::State* state) {
   const auto& pose = *state->as<ob::SE3StateSpace::StateType>();
   const ob::SO3StateSpace::StateType& q = pose.rotation();
@@ -73,14 +56,13 @@ fcl::Transform3d transform_of(const ob::State* state) {
 class FclStates : public ob::StateValidityChecker {
  public:
   FclStates(const ob::SpaceInformationPtr& si, const MotionChecker& checker)
-      : ob::StateValidityChecker(si), robot_(model_of(checker.robot())), obstacles_(model_of(checker.obstacles())) {}
+      : ob::StateValidityChecker(si),
+        robot_(fcl_model_of(checker.robot())),
+        obstacles_(fcl_model_of(checker.obstacles())) {}
   using ob::StateValidityChecker::isValid;
   bool isValid(const ob::State* state) const override {
     if (!si_->satisfiesBounds(state)) return false;
-    const fcl::CollisionRequestd request;
-    fcl::CollisionResultd result;
-    return fcl::collide(robot_.get(), transform_of(state), obstacles_.get(), fcl::Transform3d::Identity(), request,
-                        result) == 0;
+    return !fcl_collides(*robot_, transform_of(state), *obstacles_);
   }
   [[nodiscard]] bool moves_freely(const ob::State* from, const ob::State* to) const {
     const fcl::ContinuousCollisionRequestd request(100, 1e-4, fcl::CCDM_LINEAR, fcl::GST_LIBCCD,
@@ -93,8 +75,8 @@ class FclStates : public ob::StateValidityChecker {
   }
 
  private:
-  std::shared_ptr<Model> robot_;
-  std::shared_ptr<Model> obstacles_;
+  std::shared_ptr<FclModel> robot_;
+  std::shared_ptr<FclModel> obstacles_;
 };
 
 class FclMotions : public ob::MotionValidator {

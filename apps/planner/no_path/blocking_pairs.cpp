@@ -135,7 +135,7 @@ class DepthProgram {
       program_.set_bound(r, piece_.offsets[r] + piece_.normals[r].dot(position));
     }
     const auto found = program_.maximize({0, 0, 0, 1}, limit, least);
-    if (!found) return {};
+    if (!found) return {{0, 0, 0}, std::min(least, 0.0)};
     return {{(*found)[0], (*found)[1], (*found)[2]}, found->back()};
   }
 
@@ -146,8 +146,10 @@ class DepthProgram {
 
 }  // namespace
 
-CommonDepth BlockingPairs::at(const Pair& pair, const TurnedRobot& robot, const Vector3d& position) const {
-  return DepthProgram(robot.pieces[pair[0]], obstacles_[pair[1]]).at(position, 8 * scale_, resolution());
+CommonDepth BlockingPairs::at(const Pair& pair, const TurnedRobot& robot, const Vector3d& position,
+                              double least) const {
+  return DepthProgram(robot.pieces[pair[0]], obstacles_[pair[1]])
+      .at(position, 8 * scale_, least < 0 ? least : resolution());
 }
 
 std::array<CommonDepth, 8> BlockingPairs::at_corners(const Pair& pair, const TurnedRobot& robot,
@@ -159,7 +161,7 @@ std::array<CommonDepth, 8> BlockingPairs::at_corners(const Pair& pair, const Tur
 }
 
 std::pair<double, std::uint32_t> BlockingPairs::beyond(const TurnedRobot& robot, const PositionBox& box) const {
-  std::pair<double, std::uint32_t> best{-1, 0};
+  std::pair<double, std::uint32_t> best{-HUGE_VAL, 0};
   if (!box_ || robot.origins.empty()) return best;
   for (std::uint32_t side = 0; side < 6; ++side) {
     const Eigen::Index k = side % 3;

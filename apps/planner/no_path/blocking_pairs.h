@@ -41,12 +41,16 @@ struct TurnedRobot {
 struct PositionBox {
   Vector3d low, high;
   [[nodiscard]] Vector3d middle() const { return (low + high) / 2; }
+  [[nodiscard]] bool has(const Vector3d& p) const {
+    return (low.array() <= p.array()).all() && (p.array() <= high.array()).all();
+  }
   [[nodiscard]] Vector3d corner(std::size_t i) const {
     return {(i & 1) != 0 ? high[0] : low[0], (i & 2) != 0 ? high[1] : low[1], (i & 4) != 0 ? high[2] : low[2]};
   }
 };
 
-/// A point of an obstacle inside of the robot, and how deep: 0 if there is none.
+/// A point of an obstacle inside of the robot, and how deep. Below zero: there is none, and none even if each of the
+/// robot's points were moved by less than that.
 struct CommonDepth {
   Vector3d point{0, 0, 0};
   double depth = 0;
@@ -71,19 +75,23 @@ class BlockingPairs {
   [[nodiscard]] bool may_meet(const Pair& pair, const PositionBox& box) const;
 
   /// How a pair overlaps at a position, and at the corners of a box of positions: if it does at all of these, it does
-  /// at all positions of the box.
-  [[nodiscard]] CommonDepth at(const Pair& pair, const TurnedRobot& robot, const Vector3d& position) const;
+  /// at all positions of the box. A depth of `least` or below counts as `least`, which is that of no overlap at all.
+  [[nodiscard]] CommonDepth at(const Pair& pair, const TurnedRobot& robot, const Vector3d& position,
+                               double least = 0) const;
   [[nodiscard]] std::array<CommonDepth, 8> at_corners(const Pair& pair, const TurnedRobot& robot,
                                                       const PositionBox& box) const;
 
   /// How far all positions of the box are beyond a side of the claim's box, and which side (0 to 2 the lower ones, 3 to
-  /// 5 the upper ones); not positive if they are not beyond one.
+  /// 5 the upper ones); below zero if some are not beyond any.
   [[nodiscard]] std::pair<double, std::uint32_t> beyond(const TurnedRobot& robot, const PositionBox& box) const;
 
   /// Lengths below this count as zero.
   [[nodiscard]] double resolution() const { return scale_ * 1e-9; }
-  /// No point of the robot is farther from the reference point.
+  /// No point of the robot, or of one of its pieces, is farther from the reference point.
+  /// @{
   [[nodiscard]] double reach() const { return reach_; }
+  [[nodiscard]] double reach(std::uint32_t piece) const { return robot_[piece].reach; }
+  /// @}
 
  private:
   const Orientations& orientations_;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A barrier is looked for with the middle of the robot's box as the reference point first, so that turning moves the
-// robot as little as can be, then with the middles of its pieces.
+// A barrier of positions is looked for with the middle of the robot's box as the reference point first, so that turning
+// moves the robot as little as can be, then with the middles of its pieces. About one axis, a barrier of poses follows.
 #include "apps/planner/no_path/no_rigid_path.h"
 
 #include <algorithm>
 #include <utility>
 
+#include "apps/planner/no_path/pose_barrier.h"
 #include "apps/planner/no_path/position_barrier.h"
 #include "apps/planner/orientation/rotation_claim.h"
 #include "apps/planner/rigid/certified_path.h"
@@ -89,19 +90,27 @@ NoPathAnswer prove_no_rigid_path(const MotionChecker& checker, const RigidPose& 
   }
   try {
     const std::vector<Rational3> references = references_of(proof.claim);
-    for (std::size_t i = 0; i < references.size() && answer.cells < limits.max_cells; ++i) {
-      PositionBarrier barrier(proof.claim, orientations, references[i], monitor);
-      const std::size_t given = (limits.max_cells - answer.cells + 1) / (i + 1 < references.size() ? 2 : 1);
+    const auto proves = [&](auto&& barrier, std::size_t given) {
       std::size_t budget = given;
       const bool found = barrier.find(budget);
       answer.cells += given - budget;
       answer.in_question = barrier.in_question();
-      if (!found) continue;
+      if (!found) return false;
       proof.cells = barrier.written();
-      if (complaint_about(proof, monitor)) continue;
+      if (complaint_about(proof, monitor)) return false;
       answer.proof = std::move(proof);
       answer.in_question = 0;
-      break;
+      return true;
+    };
+    // About one axis, barriers of poses are there where those of positions are not, but take more boxes.
+    const bool one_axis = orientations.dimension() == 1;
+    const std::size_t for_positions = one_axis ? limits.max_cells / 16 : limits.max_cells;
+    for (std::size_t i = 0; i < references.size() && answer.cells < for_positions; ++i) {
+      const std::size_t given = (for_positions - answer.cells + 1) / (i + 1 < references.size() ? 2 : 1);
+      if (proves(PositionBarrier(proof.claim, orientations, references[i], monitor), given)) return answer;
+    }
+    if (one_axis && answer.cells < limits.max_cells) {
+      proves(PoseBarrier(proof.claim, orientations, references.front(), monitor), limits.max_cells - answer.cells);
     }
   } catch (const Interrupted&) {
     return answer;

@@ -33,8 +33,9 @@ struct NoPathAnswer {
 /// The proof is a barrier of positions that a point of the robot, the middle of the robot or of one of its pieces,
 /// cannot take, however the robot is turned (PositionBarrier). If there is such a barrier of some thickness, each pose
 /// on it is blocked by one pair of solid pieces, and the limits are wide enough, it is found; where the robot must be
-/// turned to pass, and cannot, but each of its points could be anywhere, there is none. How many boxes it takes grows
-/// steeply as the robot becomes nearly small enough to pass. Everything is found in doubles; a proof is returned only
+/// turned to pass, and cannot, but each of its points could be anywhere, there is none. About one axis there is one,
+/// too: a barrier of positions and angles (PoseBarrier). How many boxes it takes grows steeply as the robot becomes
+/// nearly small enough to pass. Everything is found in doubles; a proof is returned only
 /// if complaint_about has nothing against it, which takes most of the time. Ends without a proof if the limits are
 /// reached, the monitor stops it, or nothing is left to be cut. Throws InputError if the chain is not one.
 NoPathAnswer prove_no_rigid_path(const MotionChecker& checker, const RigidPose& start, const RigidPose& goal,

@@ -58,7 +58,7 @@ class Covering {
     }
     --budget_;
     for (const BlockingPairs::Pair& pair : candidates) {
-      if (is_blocked(part, robot, pair, cell)) return true;
+      if (is_blocked_by(pairs_, pair, robot, part.box, cell)) return true;
     }
     const std::uint32_t axis = choose(part, robot, middle, deepest);
     if (width(part, axis) * (axis < 3 ? 1 : pairs_.reach()) < kSmallest * pairs_.reach()) {
@@ -82,27 +82,6 @@ class Covering {
     for (std::size_t i = 0; i < depths.size(); ++i) candidates[i] = depths[i].second;
     if (depths.empty() || depths.front().first >= -pairs_.resolution()) return std::nullopt;
     return depths.front().second;
-  }
-
-  bool is_blocked(const CoverPart& part, const TurnedRobot& robot, const BlockingPairs::Pair& pair,
-                  PathProof::PoseCell& cell) const {
-    if (robot.pieces[pair[0]].normals.empty()) return false;
-    if (pairs_.at(pair, robot, part.box.middle()).depth <= pairs_.resolution()) return false;
-    const std::array<CommonDepth, 8> corners = pairs_.at_corners(pair, robot, part.box);
-    if (std::any_of(corners.begin(), corners.end(),
-                    [&](const CommonDepth& corner) { return corner.depth <= pairs_.resolution(); })) {
-      return false;
-    }
-    cell.kind = Kind::kBlocked;
-    cell.robot = pair[0];
-    cell.obstacle = pair[1];
-    for (const CommonDepth& corner : corners) {
-      Rational3& point = cell.common.emplace_back();
-      for (std::size_t k = 0; k < 3; ++k) {
-        point[k] = short_number(corner.point[static_cast<Eigen::Index>(k)], corner.depth / 16);
-      }
-    }
-    return true;
   }
 
   // The axis to halve.
@@ -186,6 +165,27 @@ class Covering {
 };
 
 }  // namespace
+
+bool is_blocked_by(const BlockingPairs& pairs, const BlockingPairs::Pair& pair, const TurnedRobot& robot,
+                   const PositionBox& box, PathProof::PoseCell& cell) {
+  if (robot.pieces[pair[0]].normals.empty()) return false;
+  if (pairs.at(pair, robot, box.middle()).depth <= pairs.resolution()) return false;
+  const std::array<CommonDepth, 8> corners = pairs.at_corners(pair, robot, box);
+  if (std::any_of(corners.begin(), corners.end(),
+                  [&](const CommonDepth& corner) { return corner.depth <= pairs.resolution(); })) {
+    return false;
+  }
+  cell.kind = Kind::kBlocked;
+  cell.robot = pair[0];
+  cell.obstacle = pair[1];
+  for (const CommonDepth& corner : corners) {
+    Rational3& point = cell.common.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      point[k] = short_number(corner.point[static_cast<Eigen::Index>(k)], corner.depth / 16);
+    }
+  }
+  return true;
+}
 
 PoseCover cover_poses(const BlockingPairs& pairs, const Orientations& orientations, const PositionBox& box,
                       std::size_t& budget, const Monitor& monitor) {

@@ -24,6 +24,11 @@ struct PoseCover {
   std::optional<OpenPose> open;
 };
 
+/// Whether a pair overlaps at all poses of a box: positions, and orientations for which the robot is turned. Then
+/// `cell` says so.
+bool is_blocked_by(const BlockingPairs& pairs, const BlockingPairs::Pair& pair, const TurnedRobot& robot,
+                   const PositionBox& box, PathProof::PoseCell& cell);
+
 /// Cuts a box of positions and all orientations until each part is blocked by one pair of pieces or beyond a side of
 /// the box. Stops at the first part in the middle of which no pair overlaps. `budget` is how many parts may be made,
 /// and becomes what is left of it; if that is nothing, the middle of the part in question counts as open. A part takes

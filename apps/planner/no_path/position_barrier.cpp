@@ -25,17 +25,6 @@ using Kind = PathProof::PoseCell::Kind;
 constexpr std::uint32_t kOutside = 0;
 constexpr std::uint32_t kAll = 1;
 
-Vector3d reference_at(const RigidPose& pose, const Rational3& reference) {
-  const Matrix3 turn = rotation_between(pose.quaternion, pose.quaternion);
-  Rational3 at;
-  for (std::size_t k = 0; k < 3; ++k) at[k] = pose.position[k] + dot(turn[k], reference);
-  return to_vector(at);
-}
-
-bool is_inside(const PositionBox& box, const Vector3d& p) {
-  return (box.low.array() <= p.array()).all() && (p.array() <= box.high.array()).all();
-}
-
 }  // namespace
 
 PositionBarrier::PositionBarrier(const PathProof::Claim& claim, const Orientations& orientations,
@@ -45,53 +34,17 @@ PositionBarrier::PositionBarrier(const PathProof::Claim& claim, const Orientatio
       pairs_(claim, orientations, reference),
       monitor_(monitor),
       is_bounded_(claim.box.has_value()),
-      ends_{reference_at(claim.path.front(), reference), reference_at(claim.path.back(), reference)} {
-  set_bounds(claim);
+      bounds_(claim, reference, pairs_.reach()),
+      ends_{reference_position(claim.path.front(), reference), reference_position(claim.path.back(), reference)} {
   add_samples();
   Cell& outside = cells_.emplace_back();
   outside.is_hopeless = true;
   Cell all;
-  all.box = rough_bounds_;
+  all.box = bounds_.rough;
   all.pairs = pairs_.all();
   judge(all);
   cells_.push_back(std::move(all));
   link(kOutside, kAll);
-}
-
-void PositionBarrier::set_bounds(const PathProof::Claim& claim) {
-  const auto add = [&](const Rational3& p) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      bounds_[0][k] = std::min(bounds_[0][k], p[k]);
-      bounds_[1][k] = std::max(bounds_[1][k], p[k]);
-    }
-  };
-  double room = is_zero(reference_) ? 0 : std::sqrt(nearest_double(dot(reference_, reference_))) * (1 + 0x1p-20);
-  if (claim.box) {
-    bounds_ = *claim.box;
-    // Boxes of poses have an extent.
-    for (std::size_t k = 0; k < 3; ++k) {
-      is_flat_[k] = bounds_[0][k] == bounds_[1][k];
-      if (is_flat_[k]) room = std::max(room, pairs_.reach() / 64);
-    }
-  } else {
-    bounds_ = {claim.path.front().position, claim.path.front().position};
-    add(claim.path.back().position);
-    for (const std::vector<Rational3>& piece : claim.obstacles) std::for_each(piece.begin(), piece.end(), add);
-    room += 2 * pairs_.reach() + 1;
-  }
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (const std::size_t end : {0, 1}) {
-      // A double that is no less far out.
-      Rational& bound = bounds_[end][k];
-      bound += (end == 0 ? -1 : 1) * exact_rational(room);
-      double x = nearest_double(bound);
-      if (end == 0 ? exact_rational(x) > bound : exact_rational(x) < bound) {
-        x = std::nextafter(x, end == 0 ? -HUGE_VAL : HUGE_VAL);
-      }
-      bound = exact_rational(x);
-      (end == 0 ? rough_bounds_.low : rough_bounds_.high)[static_cast<Eigen::Index>(k)] = x;
-    }
-  }
 }
 
 // The corners, the middle and the middles of the octants of each chart (of its ends and quarters, if it is an arc).
@@ -154,7 +107,7 @@ void PositionBarrier::choose_axis(Cell& cell) {
   cell.is_settled = cell.is_blocked;
   double best = -1;
   for (Eigen::Index axis = 0; !cell.is_hopeless && axis < 3; ++axis) {
-    if (is_flat_[static_cast<std::size_t>(axis)]) continue;
+    if (bounds_.is_flat[static_cast<std::size_t>(axis)]) continue;
     const double width = cell.box.high[axis] - cell.box.low[axis];
     double rank = width / size;
     for (const bool upper : {false, true}) {
@@ -174,10 +127,10 @@ void PositionBarrier::choose_axis(Cell& cell) {
 }
 
 PositionBarrier::CellId PositionBarrier::cell_of(const Vector3d& position) const {
-  if (!is_inside(rough_bounds_, position)) return kOutside;
+  if (!bounds_.rough.has(position)) return kOutside;
   CellId id = kAll;
   while (cells_[id].state == State::kCut) {
-    id = cells_[id].halves[is_inside(cells_[cells_[id].halves[0]].box, position) ? 0 : 1];
+    id = cells_[id].halves[cells_[cells_[id].halves[0]].box.has(position) ? 0 : 1];
   }
   return id;
 }
@@ -188,7 +141,7 @@ void PositionBarrier::link(CellId a, CellId b) {
   if (std::min(a, b) == kOutside) {
     if (is_bounded_) return;
     const PositionBox& box = a == kOutside ? second : first;
-    if ((box.low.array() != rough_bounds_.low.array()).all() && (box.high.array() != rough_bounds_.high.array()).all())
+    if ((box.low.array() != bounds_.rough.low.array()).all() && (box.high.array() != bounds_.rough.high.array()).all())
       return;
   } else {
     int touching = 0;
@@ -326,7 +279,7 @@ PathProof::PoseCells PositionBarrier::written() const {
   NEF_ASSERT(is_found_);
   PathProof::PoseCells result;
   result.reference = reference_;
-  result.bounds = bounds_;
+  result.bounds = bounds_.exact;
   const std::vector<bool> at_start = reached();
   result.outside_at_start = at_start[kOutside];
   for (std::size_t chart = 0; chart < orientations_.charts().size(); ++chart) {

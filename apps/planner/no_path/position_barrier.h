@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "apps/planner/no_path/barrier_bounds.h"
 #include "apps/planner/no_path/blocking_pairs.h"
 #include "apps/planner/no_path/pose_cover.h"
 #include "apps/planner/proofs/path_proof.h"
@@ -51,7 +52,6 @@ class PositionBarrier {
     std::vector<BlockingPairs::Pair> pairs;  // that may meet in it
   };
 
-  void set_bounds(const PathProof::Claim& claim);
   void add_samples();
   void judge(Cell& cell);
   void choose_axis(Cell& cell);
@@ -70,9 +70,7 @@ class PositionBarrier {
   BlockingPairs pairs_;
   Monitor monitor_;
   bool is_bounded_;
-  std::array<bool, 3> is_flat_{};  // the claim's box has no extent along an axis, which is never cut then
-  std::array<Rational3, 2> bounds_;
-  PositionBox rough_bounds_;
+  BarrierBounds bounds_;
   std::array<Vector3d, 2> ends_;  // start and goal of the reference point
   // An orientation; those that are special, as a robot with right angles would have them, do not count in efforts.
   struct Sample {

@@ -78,11 +78,16 @@ Waypoints visible_way(const FreeSpace& free, const CellFilter& filter, const std
   return {};
 }
 
-// All that the filter allows, and every vertex, edge and facet: there the shortest ways bend.
-CellFilter with_boundaries(const FreeSpace& free, const CellFilter& filter) {
+// All that the filter allows, and every vertex, edge and facet: there the shortest ways bend. Nothing if the filter
+// allows these itself.
+std::optional<CellFilter> with_boundaries(const FreeSpace& free, const CellFilter& filter) {
   CellFilter result = filter;
-  for (CellId cell = 0; cell < free.cells().volume(kOuterVolume); ++cell) result.allow(cell);
-  return result;
+  bool any = false;
+  for (CellId cell = 0; cell < free.cells().volume(kOuterVolume); ++cell) {
+    any = any || !filter(cell);
+    result.allow(cell);
+  }
+  return any ? std::optional(std::move(result)) : std::nullopt;
 }
 
 // The same way, its bends a little farther out, so that it may be used: a bend goes round an obstacle, which is on the
@@ -110,25 +115,26 @@ std::optional<Waypoints> bent_away(const FreeSpace& free, const CellFilter& filt
 void take_shorter_way_round(const FreeSpace& free, const CellFilter& filter, Waypoints& path, std::size_t limit) {
   if (path.size() <= 2) return;
   std::vector<Milestone> all{milestone_at(path.front()), milestone_at(path.back())};
-  const CellFilter closed = with_boundaries(free, filter);
-  const std::vector<Milestone> inner = milestones(free, closed, limit);
+  const std::optional<CellFilter> closed = with_boundaries(free, filter);
+  const std::vector<Milestone> inner = milestones(free, closed ? *closed : filter, limit);
   if (inner.empty()) return;
   all.insert(all.end(), inner.begin(), inner.end());
+  const auto take_if_shorter = [&](Waypoints other) {
+    shortcut(free, filter, other, false);
+    tighten(free, filter, other, 40);
+    if (length_of(other) < length_of(path)) path = std::move(other);
+  };
   // The few points on the edges cost some length that sliding gets back: let the way be a little
   // longer than the present one.
-  const double bound = 1.2 * length_of(path);
-  Waypoints other = visible_way(free, filter, all, bound);
-  if (other.empty()) {
-    Waypoints touching = visible_way(free, closed, all, bound);
-    if (touching.empty()) return;
-    tighten(free, closed, touching, 40);
-    std::optional<Waypoints> beside = bent_away(free, filter, touching);
-    if (!beside) return;
-    other = std::move(*beside);
-  }
-  shortcut(free, filter, other, false);
-  tighten(free, filter, other, 40);
-  if (length_of(other) < length_of(path)) path = std::move(other);
+  constexpr double kLonger = 1.2;
+  Waypoints other = visible_way(free, filter, all, kLonger * length_of(path));
+  if (!other.empty()) take_if_shorter(std::move(other));
+  if (!closed) return;
+  Waypoints touching = visible_way(free, *closed, all, kLonger * length_of(path));
+  if (touching.empty()) return;
+  tighten(free, *closed, touching, 40);
+  if (!(length_of(touching) < length_of(path))) return;
+  if (std::optional<Waypoints> beside = bent_away(free, filter, touching)) take_if_shorter(*std::move(beside));
 }
 
 }  // namespace nef::planner

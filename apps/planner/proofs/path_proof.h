@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/planner/free_space/common_point.h"
 #include "apps/planner/rigid/certified_path.h"
 #include "apps/planner/rigid/rigid_motion.h"
 #include "apps/planner/scene/scene.h"
@@ -23,14 +24,6 @@ class FreeSpace;
 
 /// Convex pieces by their vertices. A piece whose vertices lie in one plane is flat: part of a surface, or thinner.
 using ProofPieces = std::vector<std::vector<Rational3>>;
-
-/// Numbers that show that two hulls have a point in common, by one weight for each vertex. The weights of each hull are
-/// not negative and add up to 1, and both weighted sums are the same point. If no weight is zero, the point is in the
-/// relative interior of both hulls.
-struct CommonPoint {
-  std::vector<Rational> robot;
-  std::vector<Rational> obstacle;
-};
 
 /// A claim about a path, and what shows that it holds. The motion between two poses is that of docs/rigid.md: the
 /// position goes straight and evenly with the angle of the rotation, the rotation along the shorter arc.

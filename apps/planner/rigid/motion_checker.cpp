@@ -3,7 +3,8 @@
 // The examination of one motion is a search over its parts. A part comes with the pairs of nodes, one of each tree,
 // that its parent could not keep apart. It drops those that are apart now, splits nodes that are large beside what they
 // sweep, and leaves the others as they are, since halving the time will help more. What remains is checked at the pose
-// in the middle, which finds collisions, and goes to both halves.
+// in the middle, which finds collisions, and goes to both halves. A motion that does not turn sweeps exactly the hull
+// of its images, so a few halvings do there: a common point of that hull and an obstacle says when they meet.
 #include "apps/planner/rigid/motion_checker.h"
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <cmath>
 #include <utility>
 
+#include "apps/planner/free_space/common_point.h"
 #include "apps/planner/free_space/hulls_apart.h"
 #include "apps/planner/rigid/close_pieces.h"
 #include "apps/planner/rigid/motion_parts.h"
@@ -86,11 +88,22 @@ class MotionExamination {
     verdict_.undecided.clear();
   }
 
+  void tell_straight_collision(const Rational& s) {
+    tell_collision(nearest_double(s));
+    if (!limits_.keep_pose) return;
+    const Rational3& from = motion_.from().position;
+    for (std::size_t k = 0; k < 3; ++k) {
+      verdict_.pose->position[k] = from[k] + s * (motion_.to().position[k] - from[k]);
+    }
+  }
+
   // False if the examination has ended.
   bool examine(const Part& part) {
     monitor_.check_interruption();
     ++verdict_.cells;
-    const bool last = part.depth >= limits_.depth || verdict_.cells >= limits_.max_cells;
+    constexpr unsigned kStraightDepth = 4;
+    const bool straight = !motion_.turns() && part.depth >= std::min(kStraightDepth, limits_.depth);
+    const bool last = straight || part.depth >= limits_.depth || verdict_.cells >= limits_.max_cells;
     // A whole motion is free more rarely than it collides in the middle.
     const bool pose_first = part.depth == 0 && !limits_.in_order && !last;
     if (pose_first && collides_at(part.middle(), part.open, false)) return false;
@@ -102,10 +115,16 @@ class MotionExamination {
       return true;
     }
     if ((!limits_.in_order && !pose_first) || last) {
-      if (collides_at(part.middle(), rest, last && exact_tests_ < limits_.max_exact)) {
+      if (collides_at(part.middle(), rest, last && !straight && exact_tests_ < limits_.max_exact)) {
         verdict_.free_until = part.from;
         return false;
       }
+    }
+    if (straight) {
+      const std::optional<bool> meets = meets_straight(part, rest);
+      if (meets == true) verdict_.free_until = part.from;
+      if (meets == false && limits_.keep_parts) verdict_.parts.push_back({part.from, part.to});
+      if (meets) return !*meets;
     }
     if (last) {
       if (verdict_.undecided.size() < limits_.max_cells) verdict_.undecided.push_back({part.from, part.to});
@@ -142,6 +161,32 @@ class MotionExamination {
     if (!hulls_are_apart(swept, b.mesh.vertices, false)) return false;
     verdict_.touches = true;
     return true;
+  }
+
+  // Whether one of the pairs of leaves collides in a part of a motion that does not turn, decided exactly; the verdict
+  // says which. Nothing if that takes too many tests.
+  std::optional<bool> meets_straight(const Part& part, const std::vector<Pair>& pairs) {
+    for (const Pair& pair : pairs) {
+      if (exact_tests_ >= limits_.max_exact) return std::nullopt;
+      ++exact_tests_;
+      const std::uint32_t robot = checker_.robot_.nodes()[pair[0]].first;
+      const std::uint32_t obstacle = checker_.obstacles_.nodes()[pair[1]].first;
+      const RigidBody::Piece& a = checker_.robot_.pieces()[robot];
+      const RigidBody::Piece& b = checker_.obstacles_.pieces()[obstacle];
+      const std::vector<Rational3> swept = cells_.exact_images(part.from, part.to, a.mesh.vertices);
+      const HullWitness witness = witness_of_hulls(swept, b.mesh.vertices, !checker_.closed(a, b));
+      verdict_.touches = true;
+      if (!witness.common) continue;
+      // Images are those at both ends in turn, so the weights of the latter ones are the part that has passed.
+      Rational passed = 0;
+      for (std::size_t i = 1; motion_.moves() && i < swept.size(); i += 2) passed += witness.common->robot[i];
+      const Rational from = exact_rational(part.from);
+      tell_straight_collision(from + passed * (exact_rational(part.to) - from));
+      verdict_.robot_piece = robot;
+      verdict_.obstacle_piece = obstacle;
+      return true;
+    }
+    return false;
   }
 
   // True if a pair collides at a pose; the verdict says which. Pairs that doubles leave open are decided exactly if

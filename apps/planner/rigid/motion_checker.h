@@ -23,13 +23,14 @@ struct MotionVerdict {
   enum class Status : std::uint8_t {
     kFree,      ///< proved: no pose of the motion collides
     kCollides,  ///< a pose of the motion collides, exactly
-    kUndecided  ///< neither was proved within the limits; contact that is kept while turning is the usual cause
+    kUndecided  ///< neither was proved within the limits; contact while turning is the usual cause
   };
   Status status = Status::kFree;
   /// kFree: bodies touch, or come closer than doubles can tell, so the motion may be free only because contact is
   /// allowed. False means that there is a gap everywhere.
   bool touches = false;
-  /// kCollides: a colliding pose, the parameter of the motion at which it is, and the pieces that overlap there.
+  /// kCollides: a colliding pose, the parameter of the motion at which it is (rounded, if the motion does not turn),
+  /// and the pieces that overlap there.
   std::optional<RigidPose> pose;
   double parameter = 0;
   std::uint32_t robot_piece = 0;

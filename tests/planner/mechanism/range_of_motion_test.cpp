@@ -137,6 +137,18 @@ TEST_CASE("a corner that grazes a wall touches at one angle, and a key fits its 
   CHECK(touching == std::vector<double>{0, 180, 360});
 }
 
+TEST_CASE("a hinge whose cable winds up has values beyond a full turn", "[mechanism]") {
+  const Mechanism key = mechanism(R"J({"moving": "box(-2,-1/2,0, 2,1/2,1)", "fixed": ["box(-3,1/2,0, 3,2,1)",
+      "box(-3,-2,0, 3,-1/2,1)"], "joint": {"type": "hinge", "axis": "z", "range": [-360, 720]}})J");
+  const RangeOfMotion range = nef::planner::range_of_motion(key);
+  check_cover(range, key);
+  std::vector<double> touching;
+  for (const RangePart& part : range.parts) {
+    if (part.status == RangeStatus::kTouching) touching.push_back(degrees(part.from, key));
+  }
+  CHECK(touching == std::vector<double>{-360, -180, 0, 180, 360, 540, 720});
+}
+
 TEST_CASE("balls of a hundred faces: pole on pole, and each other's way", "[mechanism]") {
   const auto ball_at = [](const Rational3& at) {
     return transform(nef::test::ball(1, 12, 6), AffineMap::translate(at));

@@ -60,6 +60,17 @@ TEST_CASE("over a fence that may not be touched: the known length, but for a lit
   CHECK(roomy.path->thinness.junction == 3);
 }
 
+TEST_CASE("the side of an obstacle is not chosen by the walls of the box, which may be touched") {
+  // Way-points on the sides of the box are free, those on the obstacles are not. The shortest way round all is below.
+  const Scene scene = scene_of(R"J({"robot": "box(0,0,0, 1,1,1)", "obstacles": ["box(4,-7,-1, 9/2,3,2)",
+      "box(8,-2,-1, 9,-1,2)", "box(-6,-1,-1, -5,4,2)", "box(-5,-1,-1, 1,5,2)", "box(-7,4,-1, -13/2,8,2)"],
+      "box": [[-11,-11,0], [11,11,0]], "start": [-10,0,0], "goal": [10,4,0]})J");
+  const double touching = std::hypot(3, 2) + 8 + std::hypot(2, 5) + std::hypot(7, 1);
+  CHECK(answer_of(scene, ContactRule::kAllow, false).path->length == Approx(touching).epsilon(1e-6));
+  CHECK(answer_of(scene, ContactRule::kForbid, false).path->length < touching * 1.0001);
+  CHECK(answer_of(scene, ContactRule::kAllow, true).path->length < touching * 1.0001);
+}
+
 TEST_CASE("among boxes, paths that must not touch are about as short as those that may") {
   std::mt19937 random(38);
   double worst = 1;

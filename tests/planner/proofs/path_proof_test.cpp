@@ -256,5 +256,15 @@ TEST_CASE("planner writes proofs of paths and checks them", "[proofs]") {
   CHECK_THAT(bad.err, Catch::Contains("'nef_proof' is missing"));
 }
 
+TEST_CASE("the proof that a straight path collides where it touches at one time only", "[proofs]") {
+  const Scene scene = scene_with("box(0,0,0, 1,1,1)", "box(4/3,2/3,0, 3,3,1)", R"(, "contact": "forbid")");
+  const std::vector<RigidPose> path{{{0, 0, 0}}, {{1, -1, 0}}};
+  const std::optional<PathProof> proof = proof_of(scene, path);
+  REQUIRE(proof.has_value());
+  REQUIRE(proof->collision.has_value());
+  CHECK(proof->collision->parameter == ratio(1, 3));
+  CHECK(complaint(*proof, scene, path) == std::nullopt);
+}
+
 }  // namespace
 }  // namespace nef::planner::test::path_proof

@@ -46,6 +46,10 @@ CORNER = {"robot": "box(-3,-1/2,0, 3,1/2,1)", "rotation": {"range": [0, 90]},
           "obstacles": ["box(-20,-20,-1, 20,20,2) - interior(box(-20,-2,-2, 0,0,3)) - interior(box(-2,-2,-2, 0,20,3))"],
           "box": [[-15, -15, 0], [15, 15, 0]], "start": [-12, -1, 0, 0], "goal": [-1, 12, 0, 90]}
 
+# The bar cannot turn round, although its middle may be anywhere.
+TUBE = {"robot": "box(-2,-1/2,-1/2, 2,1/2,1/2)", "obstacles": ["box(-9,-4,-4, 9,4,4) - box(-6,-1,-1, 6,1,1)"],
+        "rotation": {"range": [0, 180]}, "start": [-3, 0, 0, 0], "goal": [-3, 0, 0, 180]}
+
 # A name, a scene or an assembly, a path (or none: it is looked for), what is proved.
 CASES = [
     ("turning", SLOT, "0 0 0 0 0 1 1\n0 1 0 0 0 0 1\n0 9 0 0 0 0 1\n0 12 0 1 0 2 2\n", "path: all 3 motions are free"),
@@ -56,13 +60,14 @@ CASES = [
     ("narrower", NARROW, None, "infeasible: "),
     ("window", WINDOW, None, "infeasible: "),
     ("corner", CORNER, None, "infeasible: "),
+    ("tube", TUBE, None, "infeasible: "),
     ("tight", TIGHT, None, "tight: 6 passages"),
     ("boxed", BOXED, None, "inseparable: no set of 2 parts"),
     ("wedged", WEDGED, None, "inseparable: no set of 3 parts"),
     ("apart", dict(SHEET, contact="forbid"), "0 0 0 0 0 1 3\n2 1 1 1 2 -1 3\n", "path: all 1 motions are free"),
 ]
 # Proofs whose checks take a twentieth of a second and more.
-TAMPERED = {"tight": 300, "narrower": 400, "boxed": 150, "wedged": 150, "window": 12, "corner": 80}
+TAMPERED = {"tight": 300, "narrower": 400, "boxed": 150, "wedged": 150, "window": 12, "corner": 80, "tube": 20}
 TAMPERED_OTHERS = 1700  # of each other one
 
 # What may change in a proof that still holds: it has other numbers that show the same.

@@ -118,6 +118,38 @@ TEST_CASE("A half turn is no free motion, however few parts are looked at", "[ri
   }
 }
 
+TEST_CASE("A straight motion that touches at one time only is decided, at that time", "[rigid]") {
+  // The edge of a cube passes that of a block at a third of the way.
+  const std::string passing = R"J({"robot": "box(0,0,0, 1,1,1)", "obstacles": ["box(4/3,2/3,0, 3,3,1)"])J";
+  const Scene forbidden = scene_of(passing + R"J(, "contact": "forbid"})J");
+  for (const Quaternion& turned : {Quaternion{1, 0, 0, 0}, Quaternion{0, 7, 0, 0}}) {
+    // A half turn about x takes the cube below and behind its origin.
+    const Rational3 offset = turned[0] == 0 ? Rational3{0, 1, 1} : Rational3{0, 0, 0};
+    const RigidMotion motion({offset, turned}, {{1, offset[1] - 1, offset[2]}, turned});
+    const MotionVerdict verdict = MotionChecker::of_scene(forbidden).check(motion);
+    REQUIRE(verdict.status == Status::kCollides);
+    CHECK(verdict.pose->position == Rational3{ratio(1, 3), offset[1] - ratio(1, 3), offset[2]});
+    CHECK(truly_collides(forbidden, *verdict.pose));
+    const MotionVerdict allowed = MotionChecker::of_scene(scene_of(passing + "}")).check(motion);
+    CHECK(allowed.status == Status::kFree);
+    CHECK(allowed.touches);
+  }
+}
+
+TEST_CASE("Straight motions along faces that doubles cannot place are decided", "[rigid]") {
+  // Rotations that permute the axes, by quaternions of length sqrt(3): nothing is at its exact place in doubles.
+  const Scene scene = scene_of(R"J({"robot": "box(-2,-1,0, 2,1,1) + box(-2,-1,0, -1,1,3)",
+      "obstacles": ["box(4,-6,-6, 5,6,6) - box(4,-1,-1, 5,1,1)", "polygon((2,-6,-6),(2,6,-6),(2,6,6),(2,-6,6))"]})J");
+  const MotionChecker checker = MotionChecker::of_scene(scene);
+  const Quaternion turn{0, -1, 1, 1};
+  for (const Rational& x : {Rational(3), Rational(1), Rational(7), Rational(6), Rational(8)}) {
+    const MotionVerdict verdict = checker.check(RigidMotion({{x, 3, 3}, turn}, {{x, 0, 5}, turn}));
+    REQUIRE(verdict.status != Status::kUndecided);
+    CHECK((verdict.status == Status::kCollides) == truly_collides(scene, {{x, 3, 3}, turn}));
+    CHECK(checker.check(RigidMotion({{x, 3, 3}, turn}, {{x, 3, 3}, turn})).status == verdict.status);
+  }
+}
+
 TEST_CASE("Positions out of the box collide", "[rigid]") {
   const Scene scene = scene_of(R"J({"robot": "box(0,0,0, 1,1,1)", "obstacles": [], "box": [[0,0,0],[5,5,5]]})J");
   const MotionChecker checker = MotionChecker::of_scene(scene);

@@ -11,6 +11,7 @@
 #include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid/certified_path.h"
 #include "apps/planner/rigid/pose_file.h"
+#include "nef/base/counted.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 
@@ -64,9 +65,9 @@ void write_turning_proof(const Arguments& a, const Scene& scene, const TurningAn
     if (found.proof) {
       write_file(a.proof, proof_text(*found.proof));
     } else {
-      std::cerr << "planner: " << a.proof
-                << " was not written: no point of the robot shows by its positions alone that "
-                << "there is no path; the report (-o FILE.json) has a proof by cells of angles\n";
+      std::cerr << "planner: " << a.proof << " was not written: no barrier was found with "
+                << counted(found.cells, "box", "boxes")
+                << " of poses (--max-cells); the report (-o FILE.json) has a proof by cells of angles\n";
     }
     return;
   }

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "apps/minkowski/minkowski.h"
+#include "apps/planner/free_space/common_point.h"
 #include "apps/planner/proofs/check/check_parts.h"
-#include "apps/planner/proofs/make/common_point.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 #include "nef/construct/convex_hull.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/planner/proofs/make/common_point.h"
+#include "apps/planner/free_space/common_point.h"
 #include "apps/planner/proofs/path_proof.h"
 #include "apps/planner/rigid/separation.h"
 #include "nef/base/error.h"
@@ -184,6 +184,10 @@ class PathProver {
     collision.obstacle = verdict.obstacle_piece;
     const bool inside = may_touch(verdict.robot_piece, verdict.obstacle_piece);
     const bool at_end = verdict.parameter == 0 || verdict.parameter == 1;
+    if (!motion.turns()) {
+      prove_straight_collision(motion, *verdict.pose, std::move(collision), inside);
+      return;
+    }
     const std::array<double, 2> times =
         at_end ? std::array{verdict.parameter, verdict.parameter} : cells.times(verdict.parameter, verdict.parameter);
     for (std::size_t end = 0; end < 2; ++end) {
@@ -194,6 +198,21 @@ class PathProver {
       NEF_ASSERT(witness.common);
       collision.common[end] = *std::move(witness.common);
     }
+    proof_.collision = std::move(collision);
+  }
+
+  // Where the motion does not turn the pose is exact, and says when it is.
+  void prove_straight_collision(const RigidMotion& motion, const RigidPose& pose, PathProof::Collision collision,
+                                bool inside) {
+    const Rational3 way = minus(motion.to().position, motion.from().position);
+    const Rational3 gone = minus(pose.position, motion.from().position);
+    if (motion.moves()) collision.parameter = dot(gone, way) / dot(way, way);
+    Points placed;
+    for (const Rational3& v : proof_.claim.robot[collision.robot]) placed.push_back(map_of(pose)(v));
+    HullWitness witness = witness_of_hulls(placed, proof_.claim.obstacles[collision.obstacle], inside);
+    NEF_ASSERT(witness.common);
+    collision.times.fill(collision.parameter);
+    collision.common.fill(*witness.common);
     proof_.collision = std::move(collision);
   }
 

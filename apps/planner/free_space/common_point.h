@@ -5,11 +5,19 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
-#include "apps/planner/proofs/path_proof.h"
 #include "nef/number/number.h"
 
 namespace nef::planner {
+
+/// Numbers that show that two hulls have a point in common, by one weight for each vertex. The weights of each hull are
+/// not negative and add up to 1, and both weighted sums are the same point. If no weight is zero, the point is in the
+/// relative interior of both hulls.
+struct CommonPoint {
+  std::vector<Rational> robot;
+  std::vector<Rational> obstacle;
+};
 
 /// What shows how two hulls lie: either a common point or the normal of a plane between them.
 struct HullWitness {

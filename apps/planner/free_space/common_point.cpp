@@ -4,7 +4,7 @@
 //   sum (l_i + e) a_i - sum (m_j + e) b_j = 0,  sum (l_i + e) = 1,  sum (m_j + e) = 1:
 // five equations. Phase 1 looks for a solution; if there is none, the dual solution is a plane strictly between the
 // hulls (Farkas). Phase 2 makes e as large as can be; if that is 0, its dual solution is a plane that touches them.
-#include "apps/planner/proofs/make/common_point.h"
+#include "apps/planner/free_space/common_point.h"
 
 #include <array>
 #include <cstddef>

@@ -2,7 +2,7 @@
 //
 // Barriers that separate start from goal: they are made where the planner says that there is no path, hold, and do not
 // when start and goal are on one side or a triangle is missing or wrong; every triangle by Booleans with the
-// configuration space's obstacle.
+// configuration space's obstacle. Tests of apps/planner/proofs/make/make_barrier.cpp, too.
 #include <catch2/catch.hpp>
 
 #include "apps/planner/proofs/path_proof.h"

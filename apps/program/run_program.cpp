@@ -96,9 +96,30 @@ std::string missing_option(const CLI::App& app, const CLI::ParseError& error) {
   return what;
 }
 
+// An option without its value takes the next option for one: "--time -o path.txt". Nothing if there is none.
+std::string taken_for_value(const CLI::App& app) {
+  std::vector<const CLI::App*> commands{&app};
+  for (const CLI::App* command : app.get_subcommands()) commands.push_back(command);
+  const auto is_name = [&](const std::string& word) {
+    return word.size() > 1 && word.front() == '-' &&
+           std::any_of(commands.begin(), commands.end(),
+                       [&](const CLI::App* command) { return command->get_option_no_throw(word) != nullptr; });
+  };
+  for (const CLI::App* command : commands) {
+    for (const CLI::Option* option : command->get_options()) {
+      if (option->get_lnames().empty() && option->get_snames().empty()) continue;  // operands may follow "--"
+      for (const std::string& value : option->results()) {
+        if (is_name(value)) return option->get_name() + " needs a value, and '" + value + "' is an option";
+      }
+    }
+  }
+  return "";
+}
+
 // What is wrong with a command line. An option that does not exist comes first: what is missing beside it may be what
 // it was meant for.
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
+  if (std::string taken = taken_for_value(app); !taken.empty()) return taken;
   const std::vector<std::string> left = app.remaining(true);
   if (!left.empty() && left.front() == "help") return "'help' is an option, --help";
   const bool lacks_command = !subcommand_names(app).empty() && app.get_subcommands().empty();
@@ -172,6 +193,7 @@ int run_program(CLI::App& app, int argc, char** argv, const std::function<int()>
     const std::string footer = app.get_footer();
     app.footer(footer + (footer.empty() ? "" : "\n") + kInputLimits);
     app.parse(argc, argv);
+    if (const std::string taken = taken_for_value(app); !taken.empty()) throw CLI::ArgumentMismatch(taken);
     const int code = body();
     std::cout.flush();
     return std::cout ? code : refuse("standard output cannot be written");

@@ -68,6 +68,8 @@ TEST_CASE("usage errors are one line and exit code 2") {
   check_refused(here.nef("info a.off b.off"), "unexpected argument 'b.off' (see nef info --help)");
   check_refused(here.nef("info a.off --frob"), "--frob");
   check_refused(here.nef("section a.off"), "--plane A,B,C,D is required (see nef section --help)");
+  check_refused(here.nef("section a.off --plane -o x.svg"),
+                "--plane needs a value, and '-o' is an option (see nef section --help)");
   check_refused(here.nef("help section"), "'help' is an option, --help (see nef section --help)");
   check_refused(here.nef("help"), "'help' is an option, --help (see nef --help)");
   check_refused(here.nef("locate a.off 1,2"), "1,2");

@@ -65,11 +65,11 @@ double off_by(const Placement& placement, const std::vector<Shot>& cameras, cons
 
 TEST_CASE("A series of an object that was turned over is placed within .3 pixels of the truth, in any unit") {
   const auto object = generic_object(4);
-  const testing::Set upright = testing::rendered_set(object, table(7));
-  const testing::Set lying = testing::rendered_set(object, turned(table(7)));
-  std::vector<Shot> given = table(7);  // the space of the second series is that of its turntable
+  const testing::Set upright = testing::rendered_set(object, table(5));
+  const testing::Set lying = testing::rendered_set(object, turned(table(5)));
+  std::vector<Shot> given = table(5);  // the space of the second series is that of its turntable
   for (Shot& shot : given) shot.t *= 1.4;
-  const Placement placement = place_series(series_of(upright, table(7)), series_of(lying, given), {});
+  const Placement placement = place_series(series_of(upright, table(5)), series_of(lying, given), {});
   INFO(off_by(placement, given, lying.truth)
        << " px off, outlines " << placement.together_px << " instead of " << placement.alone_px << ", next best "
        << placement.runner_up_px << " after " << placement.best_found_px);
@@ -108,28 +108,28 @@ TEST_CASE("The hull of a combined scene is the intersection of the hulls of its 
   const Scratch scratch;
   const auto object = generic_object(3);
   const std::string upright =
-      write_series(scratch.folder(), "upright", testing::rendered_set(object, table(7)), table(7));
+      write_series(scratch.folder(), "upright", testing::rendered_set(object, table(5)), table(5));
   const std::string lying =
-      write_series(scratch.folder(), "lying", testing::rendered_set(object, turned(table(7))), table(7));
+      write_series(scratch.folder(), "lying", testing::rendered_set(object, turned(table(5))), table(5));
   const std::string both = (scratch.folder() / "both.json").string();
   const std::string report = (scratch.folder() / "report.json").string();
   const Outcome made = run("combine " + upright + " " + lying + " -o " + both + " --report " + report);
   INFO(made.output);
   REQUIRE(made.code == 0);
-  CHECK_THAT(made.output, Contains("lying.json: 7 views, turned by 108.8"));
+  CHECK_THAT(made.output, Contains("lying.json: 5 views, turned by 108.8"));
   const nlohmann::json series = nlohmann::json::parse(nef::read_file(report))["series"][0];
   CHECK(series["fits"] == true);
   CHECK(series["scale"] == 1);
-  CHECK(series["views"] == 7);
+  CHECK(series["views"] == 5);
 
   Scene scene = read_scene(both);
-  REQUIRE(scene.views.size() == 14);
-  CHECK(scene.views[7].name == "2_0");
+  REQUIRE(scene.views.size() == 10);
+  CHECK(scene.views[5].name == "2_0");
   CHECK(scene.views[0].camera.matrix() == read_scene(upright).views[0].camera.matrix());
   const Result together = compute(scene, scratch.folder(), simplified());
   Scene first = scene;
-  first.views.resize(7);
-  scene.views.erase(scene.views.begin(), scene.views.begin() + 7);
+  first.views.resize(5);
+  scene.views.erase(scene.views.begin(), scene.views.begin() + 5);
   const Polyhedron a = compute(first, scratch.folder(), simplified()).hull;
   const Polyhedron b = compute(scene, scratch.folder(), simplified()).hull;
   CHECK(nef::equal(together.hull, nef::intersect(a, b)));

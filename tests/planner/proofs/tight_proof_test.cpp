@@ -92,7 +92,7 @@ TEST_CASE("there are no proofs where no passage is tight") {
 
 TEST_CASE("random boxes on a grid: positions near a tight passage are free along it only") {
   unsigned proved = 0;
-  int unproved = 0;
+  unsigned unproved = 0;
   for (unsigned seed = 0; seed < seeds(8); ++seed) {
     INFO("seed " << seed);
     std::mt19937 random(seed);

@@ -167,7 +167,7 @@ TEST_CASE("Verdicts on random motions agree with Booleans at exact poses", "[rig
                                         "hull(3,0,0, 6,1,0, 4,5,1, 4,2,6)", "polygon(3,-4,-4, 3,4,-4, 3,0,5)"};
   unsigned free = 0;
   unsigned collides = 0;
-  int undecided = 0;
+  unsigned undecided = 0;
   for (unsigned round = 0; round < seeds(60); ++round) {
     Scene scene = scene_of(R"J({"robot": ")J" + robots[static_cast<std::size_t>(number(0, 3))] +
                            R"J(", "obstacles": [")J" + worlds[static_cast<std::size_t>(number(0, 3))] + R"J("]})J");

@@ -17,6 +17,7 @@
 #include "fuzz/fuzzer.h"
 #include "nef/construct/construct.h"
 #include "nef/construct/convex_hull.h"
+#include "nef/geometry/vectors.h"
 #include "nef/number/int128.h"
 
 namespace nef::fuzz {
@@ -404,11 +405,19 @@ class MotionCase {
     }
     if (!motion.turns()) to.turn = from.turn;
     const bool even = timing == MotionTiming::kSlerp && motion.turns();
-    even ? check_even(verdict, limits, from, to, product) : check_exact(verdict, limits, from, to);
+    even ? check_even(verdict, limits, from, to, product) : check_exact(verdict, limits, motion, from, to);
     count(verdict, even);
   }
 
-  void check_exact(const MotionVerdict& verdict, const CheckLimits& limits, const GridPose& from, const GridPose& to) {
+  // Of a motion that does not turn the pose is exact, the parameter rounded.
+  static Rational collision_parameter(const MotionVerdict& verdict, const RigidMotion& motion) {
+    if (motion.turns() || !motion.moves()) return exact_rational(verdict.parameter);
+    const Rational3 way = minus(motion.to().position, motion.from().position);
+    return dot(minus(verdict.pose->position, motion.from().position), way) / dot(way, way);
+  }
+
+  void check_exact(const MotionVerdict& verdict, const CheckLimits& limits, const RigidMotion& motion,
+                   const GridPose& from, const GridPose& to) {
     bool contact = false;
     for (long k = 0; k <= kSamples; ++k) {
       const Meeting meeting = meeting_at<Int128>(from, to, k, k, kSamples);
@@ -418,7 +427,7 @@ class MotionCase {
     case_.count("exact poses", kSamples + 1);
     if (verdict.status == MotionVerdict::Status::kUndecided && !contact) case_.count("undecided without contact seen");
     if (verdict.status != MotionVerdict::Status::kCollides) return;
-    const Rational s = exact_rational(verdict.parameter);
+    const Rational s = collision_parameter(verdict, motion);
     const Meeting meeting = meeting_at<Integer>(from, to, s.get_num(), s.get_num(), s.get_den());
     Case::require(collides(meeting), "collides: the pose does not, at " + std::to_string(verdict.parameter));
   }

@@ -20,6 +20,7 @@ struct PlacedSeries {
   Placement placement;
 };
 
+/// Several series as one.
 struct Combined {
   Scene scene;  ///< all views, in the space of the first series, whose cameras are as they were; images by their paths
   std::vector<PlacedSeries> series;  ///< all but the first

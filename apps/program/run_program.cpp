@@ -84,7 +84,7 @@ std::string suggested_subcommand(const CLI::App& app, const std::string& word) {
 
 // "--plane A,B,C,D is required": what the value of a missing option looks like.
 std::string missing_option(const CLI::App& app, const CLI::ParseError& error) {
-  const std::string what = error.what();
+  std::string what = error.what();
   const std::string name = what.substr(0, what.find(' '));
   if (name.rfind("--", 0) != 0 || name == "--output") return what;
   for (const CLI::App* command : app.get_subcommands()) {

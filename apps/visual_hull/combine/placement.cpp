@@ -79,7 +79,8 @@ Body body_of(const OutlineSeries& series) {
   const refine::Ball ball = refine::object_ball(series.cameras, series.outlines);
   std::vector<Vector3d> all;
   for (int k = 0; k < kGridSide * kGridSide * kGridSide; ++k) {
-    const Vector3d cell(k % kGridSide, k / kGridSide % kGridSide, k / (kGridSide * kGridSide));
+    const std::array<int, 3> index{k % kGridSide, k / kGridSide % kGridSide, k / (kGridSide * kGridSide)};
+    const Vector3d cell(index[0], index[1], index[2]);
     const Vector3d point = ball.centre + ball.radius * ((2 * cell + Vector3d::Ones()) / kGridSide - Vector3d::Ones());
     if (contains_point(series, point)) all.push_back(point);
   }

@@ -16,6 +16,7 @@ namespace {
 
 constexpr double kMargin = 10;        // nodes around the silhouette
 constexpr double kBlur = 2;           // nodes: standard deviation
+constexpr int kReach = 16;            // nodes: how far the blurs reach (OpenCV's end at four deviations)
 constexpr double kMostNodes = 1200;   // along a side of the grid: larger silhouettes have coarser ones
 constexpr std::size_t kPiece = 6;     // samples in a row that are held out together
 constexpr double kNearFrame = 2.5;    // pixels: a side of the outline that may be the frame's
@@ -101,20 +102,22 @@ DistanceField::DistanceField(const Silhouette& silhouette, const ImageSize& fram
   }
   width_ = std::max(2, static_cast<int>(std::ceil((box.high.x() - low_.x()) / step_)) + 1);
   height_ = std::max(2, static_cast<int>(std::ceil((box.high.y() - low_.y()) / step_)) + 1);
-  const cv::Mat mask = filled(silhouette, low_, step_, width_, height_);
+  // Blurs see what they would see on a grid without end. Beyond a frame the distance goes on as it is there.
+  const int around = frame_ ? 0 : kReach;
+  const cv::Mat mask = filled(silhouette, low_ - Eigen::Vector2d::Constant(around * step_), step_, width_ + 2 * around,
+                              height_ + 2 * around);
   cv::Mat inside;
   cv::Mat outside;
   cv::distanceTransform(mask, inside, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
   cv::distanceTransform(255 - mask, outside, cv::DIST_L2, cv::DIST_MASK_PRECISE, CV_32F);
   cv::Mat distance = inside - outside;
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) {
+  for (int y = 0; y < mask.rows; ++y) {
+    for (int x = 0; x < mask.cols; ++x) {
       // From the centre of a pixel to the border between pixels.
       distance.at<float>(y, x) -= mask.at<std::uint8_t>(y, x) != 0 ? 0.5F : -0.5F;
     }
   }
-  distance = smoothed(distance);
-  distance *= step_;
+  distance = step_ * smoothed(distance)(cv::Rect(around, around, width_, height_));
   values_.assign(distance.begin<float>(), distance.end<float>());
 }
 

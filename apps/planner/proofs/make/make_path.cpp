@@ -10,6 +10,7 @@
 #include "apps/planner/proofs/path_proof.h"
 #include "apps/planner/rigid/separation.h"
 #include "nef/base/error.h"
+#include "nef/geometry/integer_vector.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef::planner {
@@ -54,19 +55,6 @@ bool separates(const Rational3& normal, const Points& a, const Points& b, bool m
   });
 }
 
-// The shortest whole numbers in the same ratio.
-Rational3 primitive(Rational3 normal) {
-  Integer whole = 1;
-  for (const Rational& x : normal) whole = lcm(whole, x.get_den());
-  Integer common = 0;
-  for (Rational& x : normal) {
-    x *= whole;
-    common = gcd(common, x.get_num());
-  }
-  for (Rational& x : normal) x /= common;
-  return normal;
-}
-
 // With few binary places, if those separate, too.
 std::optional<Rational3> rounded_normal(const Vector3d& found, const Points& a, const Points& b, bool may_touch) {
   for (const double places : {0x1p5, 0x1p12, 0x1p40}) {
@@ -74,7 +62,7 @@ std::optional<Rational3> rounded_normal(const Vector3d& found, const Points& a, 
     for (std::size_t k = 0; k < 3; ++k) {
       normal[k] = exact_rational(std::nearbyint(found[static_cast<Eigen::Index>(k)] * places));
     }
-    if (separates(normal, a, b, may_touch)) return primitive(normal);
+    if (separates(normal, a, b, may_touch)) return to_rational(primitive(normal));
   }
   return std::nullopt;
 }
@@ -163,7 +151,7 @@ class PathProver {
     }
     const HullWitness witness = witness_of_hulls(swept, obstacle, may_touch(i, j));
     NEF_ASSERT(!witness.common);  // the search has found them apart in this part or in one that holds it
-    return primitive(witness.normal);
+    return to_rational(primitive(witness.normal));
   }
 
   void prove_collision() {

@@ -10,6 +10,7 @@
 #include "apps/planner/free_space/free_space.h"
 #include "apps/planner/proofs/check/check_parts.h"
 #include "apps/planner/proofs/make/piece_contact.h"
+#include "nef/geometry/integer_vector.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef::planner {
@@ -23,7 +24,7 @@ std::vector<Rational3> directions_of_cell(const FreeSpace& free, CellId cell) {
   const std::vector<Rational3> vertices = free.vertices(cell);
   const auto dimension = static_cast<std::size_t>(free.cells().dimension(cell));
   for (std::size_t i = 1; i < vertices.size() && result.size() < dimension; ++i) {
-    const Rational3 d = primitive(minus(vertices[i], vertices[0]));
+    const Rational3 d = to_rational(primitive(minus(vertices[i], vertices[0])));
     if (result.empty() || !is_zero(cross(result[0], d))) result.push_back(d);
   }
   return result;

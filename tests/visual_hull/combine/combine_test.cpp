@@ -93,7 +93,7 @@ std::string write_series(const fs::path& folder, const std::string& name, const 
     cv::imwrite((folder / view.image).string(), set.masks[i]);
     scene.views.push_back(view);
   }
-  const std::string file = (folder / (name + ".json")).string();
+  std::string file = (folder / (name + ".json")).string();
   nef::write_file(file, write_scene_json(scene));
   return file;
 }

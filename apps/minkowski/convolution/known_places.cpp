@@ -2,6 +2,7 @@
 #include "apps/minkowski/convolution/known_places.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -18,12 +19,13 @@ std::span<const std::uint32_t> PlacesOfPoints::near(const Box& box) const {
   return found == points_.end() ? std::span<const std::uint32_t>() : found->second;
 }
 
-// Coordinates are at most 2^24 cells or little more. Different cells may have the same key.
+// Different cells may have the same key. The cells are numbered by doubles: where they are rounded, and beyond all
+// bounds (a segment without an estimate of where it ends), points share a cell, which is allowed.
 std::uint64_t PlacesOfPoints::key_of(const Double3& place) const {
   std::uint64_t key = 0;
   for (const double x : place) {
-    const auto cell = static_cast<std::int64_t>(std::floor(x / size_));
-    key = (key ^ (key >> 29U)) * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(cell);
+    const double cell = std::floor(x / size_) + 0.0;  // never -0
+    key = (key ^ (key >> 29U)) * 0x9e3779b97f4a7c15ULL + std::bit_cast<std::uint64_t>(cell);
   }
   return key;
 }

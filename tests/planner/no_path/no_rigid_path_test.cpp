@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Proofs that a robot that turns has no path: where there is none, and never where a path is known.
+// Proofs that a robot that turns has no path: where there is none, and never where a path is known. All of
+// apps/planner/no_path/ that has no test of its own.
 #include "apps/planner/no_path/no_rigid_path.h"
 
 #include <catch2/catch.hpp>

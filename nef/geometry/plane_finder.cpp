@@ -71,14 +71,6 @@ std::optional<SmallSides> small_sides(const PointTable& points, const std::array
   return s;
 }
 
-void assign(Integer& to, Int128 value) {
-  const Unsigned128 size = magnitude(value);
-  mp_limb_t* const limbs = mpz_limbs_write(to.get_mpz_t(), 2);
-  limbs[0] = static_cast<mp_limb_t>(size);
-  limbs[1] = static_cast<mp_limb_t>(size >> 64U);
-  mpz_limbs_finish(to.get_mpz_t(), value < 0 ? -2 : 2);
-}
-
 // The product of the sides of a triangle in machine integers: its parts are differences of two products of numbers
 // whose widths add up to 126 bits at most, so below 2^127. False if numbers are not that small.
 bool small_normal(const PointTable& points, const std::array<PointId, 3>& triangle, Integer3& n) {

@@ -22,13 +22,6 @@ constexpr double kModerate = 1e75;
 // Coordinates below 2^40 give differences below 2^41, minors below 2^83 and determinants below 2^126.
 constexpr std::int64_t kIntegerLimit = std::int64_t{1} << 40U;
 
-void assign(Integer& to, Int128 value) {
-  const Unsigned128 size = magnitude(value);
-  const std::array<std::uint64_t, 2> words{static_cast<std::uint64_t>(size), static_cast<std::uint64_t>(size >> 64U)};
-  mpz_import(to.get_mpz_t(), words.size(), -1, sizeof(std::uint64_t), 0, 0, words.data());
-  if (value < 0) mpz_neg(to.get_mpz_t(), to.get_mpz_t());
-}
-
 // x, y, z, w where they are below 2^62.
 using Homogeneous = std::array<std::int64_t, 7>;
 

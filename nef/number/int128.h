@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <numeric>
 
+#include "nef/number/number.h"
+
 namespace nef {
 
 __extension__ using Int128 = __int128;
@@ -16,6 +18,16 @@ __extension__ using Unsigned128 = unsigned __int128;
 
 inline Unsigned128 magnitude(Int128 value) {
   return value < 0 ? -static_cast<Unsigned128>(value) : static_cast<Unsigned128>(value);
+}
+
+/// Sets an integer of GMP, whose limbs are words of 64 bits, to such a value.
+inline void assign(Integer& to, Int128 value) {
+  static_assert(GMP_NUMB_BITS == 64);
+  const Unsigned128 size = magnitude(value);
+  mp_limb_t* const limbs = mpz_limbs_write(to.get_mpz_t(), 2);
+  limbs[0] = static_cast<mp_limb_t>(size);
+  limbs[1] = static_cast<mp_limb_t>(size >> 64U);
+  mpz_limbs_finish(to.get_mpz_t(), value < 0 ? -2 : 2);
 }
 
 inline int sign_of(Int128 value) { return (value > 0) - (value < 0); }

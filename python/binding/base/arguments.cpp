@@ -4,6 +4,8 @@
 #include <cstring>
 #include <string>
 
+#include "binding/base/functions.h"
+
 namespace nef::python {
 
 namespace py = pybind11;
@@ -58,12 +60,6 @@ void explain_function(py::handle value) {
 
 }  // namespace
 
-void explain_arguments(const py::module_& module) {
-  for (const auto& [name, value] : py::reinterpret_borrow<py::dict>(module.attr("__dict__"))) {
-    explain_function(value);
-    if (!py::isinstance<py::type>(value)) continue;
-    for (const auto& [method_name, method] : py::dict(value.attr("__dict__"))) explain_function(method);
-  }
-}
+void explain_arguments(const py::module_& module) { for_each_function(module, explain_function); }
 
 }  // namespace nef::python

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <vector>
 
+#include "binding/base/functions.h"
+
 namespace nef::python {
 
 namespace py = pybind11;
@@ -77,12 +79,6 @@ std::optional<std::string> text_signature(std::string_view line) {
   return text + ")\n--\n\n";
 }
 
-void give_signatures(const py::module_& module) {
-  for (const auto& [name, value] : py::reinterpret_borrow<py::dict>(module.attr("__dict__"))) {
-    give_signature(value);
-    if (!py::isinstance<py::type>(value)) continue;
-    for (const auto& [method_name, method] : py::dict(value.attr("__dict__"))) give_signature(method);
-  }
-}
+void give_signatures(const py::module_& module) { for_each_function(module, give_signature); }
 
 }  // namespace nef::python

@@ -10,6 +10,8 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
+#include "apps/visual_hull/masks/separation.h"
+
 namespace nef::visual_hull {
 namespace {
 
@@ -19,6 +21,9 @@ constexpr double kAspectShare = 0.005;  // of a focal length
 constexpr double kAlike = 1.5;          // times the error of the better pose
 constexpr double kMostAlike = 0.05;     // pixels, where both are small
 constexpr double kOtherTilt = 0.03;     // radians between poses that differ
+constexpr double kFarOff = 3;           // times the median distance of corners
+constexpr double kLeastFarOff = 0.2;    // pixels
+constexpr std::size_t kFewestKept = 8;  // corners
 
 /// A model: what is held, and how many parameters are free.
 struct LensChoice {
@@ -117,16 +122,76 @@ Eigen::Matrix3d rotation_of_vector(const cv::Mat& rotation_vector) {
   return result;
 }
 
-double corner_error(const SeenBoard& view, const cv::Mat& k, const std::vector<double>& distortion, const cv::Mat& r,
-                    const cv::Mat& t) {
-  std::vector<cv::Point2d> seen;
-  cv::projectPoints(view.corners, r, t, k, distortion, seen);
-  double sum = 0;
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    const cv::Point2d d = seen[i] - view.points[i];
-    sum += d.dot(d);
+/// A pose as OpenCV has it.
+struct RawPose {
+  cv::Mat rotation;
+  cv::Mat shift;
+};
+
+// The camera of one view: poses and how well they explain a board.
+class BoardCamera {
+ public:
+  explicit BoardCamera(const Lens& lens)
+      : k_((cv::Mat_<double>(3, 3) << lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1)),
+        distortion_(lens.distortion) {}
+
+  [[nodiscard]] std::vector<RawPose> poses(const SeenBoard& view) const {
+    std::vector<cv::Mat> rotations;
+    std::vector<cv::Mat> shifts;
+    try {
+      cv::solvePnPGeneric(view.corners, view.points, k_, distortion_, rotations, shifts, false, cv::SOLVEPNP_IPPE);
+    } catch (const cv::Exception&) {  // the corners lie such that there is none
+      return {};
+    }
+    std::vector<RawPose> result;
+    for (std::size_t i = 0; i < rotations.size(); ++i) result.push_back({rotations[i], shifts[i]});
+    return result;
   }
-  return std::sqrt(sum / static_cast<double>(seen.size()));
+
+  // By least squares.
+  void fit(const SeenBoard& view, RawPose& pose) const {
+    cv::solvePnPRefineLM(view.corners, view.points, k_, distortion_, pose.rotation, pose.shift);
+  }
+
+  // Of each corner, from where the pose has it, in pixels.
+  [[nodiscard]] std::vector<double> distances(const SeenBoard& view, const RawPose& pose) const {
+    std::vector<cv::Point2d> seen;
+    cv::projectPoints(view.corners, pose.rotation, pose.shift, k_, distortion_, seen);
+    std::vector<double> result;
+    for (std::size_t i = 0; i < seen.size(); ++i) result.push_back(cv::norm(seen[i] - view.points[i]));
+    return result;
+  }
+
+  [[nodiscard]] double error(const SeenBoard& view, const RawPose& pose) const {
+    double sum = 0;
+    for (const double d : distances(view, pose)) sum += d * d;
+    return std::sqrt(sum / static_cast<double>(view.points.size()));
+  }
+
+ private:
+  cv::Mat k_;
+  std::vector<double> distortion_;
+};
+
+// Without the corners that are off by far more than the others: the object, its outline or the border of a shadow lies
+// beside them. They go one by one, since each draws the pose to itself. If many do, something else is wrong, and all
+// stay.
+SeenBoard trusted_corners(const SeenBoard& view, const BoardCamera& camera, RawPose& pose) {
+  const std::size_t fewest = std::max(kFewestKept, view.points.size() - view.points.size() / 4);
+  SeenBoard kept = view;
+  RawPose fitted{pose.rotation.clone(), pose.shift.clone()};
+  while (true) {
+    const std::vector<double> off = camera.distances(kept, fitted);
+    const auto worst = std::max_element(off.begin(), off.end()) - off.begin();
+    if (off[static_cast<std::size_t>(worst)] <= std::max(kLeastFarOff, kFarOff * median_of(off))) break;
+    if (kept.points.size() <= fewest) return view;
+    kept.numbers.erase(kept.numbers.begin() + worst);
+    kept.corners.erase(kept.corners.begin() + worst);
+    kept.points.erase(kept.points.begin() + worst);
+    camera.fit(kept, fitted);
+  }
+  pose = fitted;
+  return kept;
 }
 
 }  // namespace
@@ -164,20 +229,15 @@ BoardLens fit_lens(std::span<const SeenBoard* const> views, const ImageSize& siz
 }
 
 std::optional<BoardPose> pose_by_board(const SeenBoard& view, const Lens& lens) {
-  const cv::Mat k = (cv::Mat_<double>(3, 3) << lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1);
-  std::vector<cv::Mat> rotations;
-  std::vector<cv::Mat> shifts;
-  try {
-    cv::solvePnPGeneric(view.corners, view.points, k, lens.distortion, rotations, shifts, false, cv::SOLVEPNP_IPPE);
-  } catch (const cv::Exception&) {
-    return std::nullopt;
-  }
+  const BoardCamera camera(lens);
   std::vector<BoardPose> poses;
-  for (std::size_t i = 0; i < rotations.size(); ++i) {
-    cv::solvePnPRefineLM(view.corners, view.points, k, lens.distortion, rotations[i], shifts[i]);
-    const double* const t = shifts[i].ptr<double>();
-    BoardPose found{{rotation_of_vector(rotations[i]), {t[0], t[1], t[2]}},
-                    corner_error(view, k, lens.distortion, rotations[i], shifts[i]),
+  for (RawPose& pose : camera.poses(view)) {
+    camera.fit(view, pose);
+    const SeenBoard trusted = trusted_corners(view, camera, pose);
+    const double* const t = pose.shift.ptr<double>();
+    BoardPose found{{rotation_of_vector(pose.rotation), {t[0], t[1], t[2]}},
+                    camera.error(trusted, pose),
+                    trusted.points.size(),
                     false};
     if (std::isfinite(found.error_px) && t[2] > 0) poses.push_back(found);
   }

@@ -101,6 +101,7 @@ void place_views(BoardSeries& series, const Lens& lens) {
     }
     view.pose = found->pose;
     view.error_px = found->error_px;
+    view.corners = found->corners;
     if (found->ambiguous) view.refused = "two poses explain its corners: the board is too small in the picture";
   }
 }
@@ -163,7 +164,7 @@ double series_error(const BoardSeries& series) {
   double count = 0;
   for (std::size_t i = 0; i < series.views.size(); ++i) {
     if (!series.good(i)) continue;
-    const auto n = static_cast<double>(series.seen[i].points.size());
+    const auto n = static_cast<double>(series.views[i].corners);
     sum += n * series.views[i].error_px * series.views[i].error_px;
     count += n;
   }

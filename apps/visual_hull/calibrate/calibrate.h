@@ -18,7 +18,7 @@ namespace nef::visual_hull {
 /// What has become of one photograph.
 struct CalibratedView {
   std::filesystem::path photograph;
-  std::size_t corners = 0;  ///< of the board that were found
+  std::size_t corners = 0;  ///< of the board that were found; where there is a pose, those that count (board_lens.h)
   double error_px = 0;      ///< root mean square distance between corners as seen and as the camera sees them
   Pose pose;                ///< in the frame of the board (board_corners)
   std::string refused;      ///< why the photograph is of no use; empty: it has a camera

@@ -9,6 +9,7 @@ The camera has a lens with distortion and noise, its axis does not meet the midd
 throws a shadow. The commands that are run are printed, with what they print, and how far the hull's volume is from the duck's.
 """
 import argparse
+import json
 import pathlib
 import re
 import struct
@@ -73,12 +74,30 @@ def first_hit(eye, rays):
     return best, which
 
 
+def lamp_of(rotation, eye):
+    """It stands to the left of the camera and above it."""
+    return eye + rotation.T @ numpy.array([-250, -260, -20])
+
+
+def paint_at(points, which, eye, lamp):
+    """What a camera sees of points on the duck's ellipsoids, with a highlight: red, green and blue up to 1; outward normals."""
+    middle, axes, paint = (numpy.array([part[i] for part in DUCK], float)[which] for i in range(3))
+    normal = (points - middle) / axes ** 2
+    normal /= numpy.linalg.norm(normal, axis=-1, keepdims=True)
+    light, sight = lamp - points, eye - points
+    light /= numpy.linalg.norm(light, axis=-1, keepdims=True)
+    half = light + sight / numpy.linalg.norm(sight, axis=-1, keepdims=True)
+    half /= numpy.linalg.norm(half, axis=-1, keepdims=True)
+    shade = .35 + .65 * numpy.maximum((normal * light).sum(-1), 0)
+    shine = .25 * numpy.maximum((normal * half).sum(-1), 0) ** 60
+    return paint / 255 * shade[:, None] + shine[:, None], normal
+
+
 def render(rotation, eye, board, rays_in_camera, random):
     """A photograph, bytes of red, green and blue."""
     sheet, page, pixels = board
     rays = rays_in_camera @ rotation
-    # The lamp stands to the left of the camera and above it.
-    lamp = eye + rotation.T @ numpy.array([-250, -260, -20])
+    lamp = lamp_of(rotation, eye)
     colour = numpy.full(rays.shape, .33)
     best, which = first_hit(eye, rays)
     table = numpy.where(rays[..., 2] < 0, -eye[2] / rays[..., 2], numpy.inf)
@@ -92,20 +111,14 @@ def render(rotation, eye, board, rays_in_camera, random):
     distance, _ = first_hit(at + numpy.array([0, 0, 1e-3]), to_lamp)
     lit = numpy.where(distance < 1, .45, 1)
     colour = numpy.where(on_table[..., None], (gray * lit)[..., None], colour)
-    for k, (middle, axes, paint) in enumerate(DUCK):
-        mine = (which == k) & ~on_table
-        if not mine.any():
-            continue
-        p = eye + best[mine][:, None] * rays[mine]
-        normal = (p - middle) / numpy.array(axes) ** 2
-        normal /= numpy.linalg.norm(normal, axis=-1, keepdims=True)
-        light = lamp - p
-        light /= numpy.linalg.norm(light, axis=-1, keepdims=True)
-        half = light - rays[mine] / numpy.linalg.norm(rays[mine], axis=-1, keepdims=True)
-        half /= numpy.linalg.norm(half, axis=-1, keepdims=True)
-        shade = .35 + .65 * numpy.maximum((normal * light).sum(-1), 0)
-        shine = .25 * numpy.maximum((normal * half).sum(-1), 0) ** 60
-        colour[mine] = numpy.array(paint) / 255 * shade[:, None] + shine[:, None]
+    mine = (which >= 0) & ~on_table
+    if mine.any():
+        colour[mine] = paint_at(eye + best[mine][:, None] * rays[mine], which[mine], eye, lamp)[0]
+    # A lens blurs by a third of a pixel.
+    for axis in 0, 1:
+        around = numpy.pad(colour, [(1, 1) if k == axis else (0, 0) for k in range(3)], mode="edge")
+        colour = (numpy.take(around, range(colour.shape[axis]), axis) + 2 * colour +
+                  numpy.take(around, range(2, colour.shape[axis] + 2), axis)) / 4
     small = colour.reshape(SHAPE[0], 2, SHAPE[1], 2, 3).mean((1, 3))
     return numpy.clip(255 * small + random.normal(0, 3, small.shape), 0, 255).astype(numpy.uint8)
 
@@ -124,15 +137,18 @@ def place(distance, azimuth, elevation):
                                    numpy.sin(elevation)])
 
 
+def cameras(count):
+    """Rotation and eye of each photograph. The board turns; seen from it, the camera does. Every fourth looks down more."""
+    eyes = [place(430, 2 * numpy.pi * i / count, numpy.radians(62 if i % 4 == 3 else 26)) for i in range(count)]
+    return [(looking(eye, (4, 2, 28)), eye) for eye in eyes]
+
+
 def take_photographs(folder, board, count):
     rays, random = rays_of_lens(), numpy.random.default_rng(1)
     for name in "photographs", "lens":
         (folder / name).mkdir(exist_ok=True)
-    for i in range(count):
-        # The board turns; seen from it, the camera does. Every fourth picture looks down more.
-        eye = place(430, 2 * numpy.pi * i / count, numpy.radians(62 if i % 4 == 3 else 26))
-        picture = render(looking(eye, (4, 2, 28)), eye, board, rays, random)
-        write_png(folder / "photographs" / f"duck_{i:02}.png", picture)
+    for i, (rotation, eye) in enumerate(cameras(count)):
+        write_png(folder / "photographs" / f"duck_{i:02}.png", render(rotation, eye, board, rays, random))
     duck, DUCK[:] = DUCK[:], []  # the board alone, held at several tilts
     for i in range(8):
         eye = place(330, .9 * i, numpy.radians((40, 65)[i % 2]))
@@ -150,12 +166,92 @@ def volume_of_duck(step=.5):
     return inside.sum() * step ** 3
 
 
+def write_perfect_scene(folder, count):
+    """The true cameras, and masks that say how much of each pixel the duck covers, by four samples."""
+    (folder / "perfect").mkdir(exist_ok=True)
+    matrix, views, rays = [[FOCAL, 0, CENTRE[0]], [0, FOCAL, CENTRE[1]], [0, 0, 1]], [], rays_of_lens()
+    for i, (rotation, eye) in enumerate(cameras(count)):
+        _, which = first_hit(eye, rays @ rotation)
+        covered = (255 * (which >= 0).reshape(SHAPE[0], 2, SHAPE[1], 2).mean((1, 3))).round().astype(numpy.uint8)
+        name = f"perfect/duck_{i:02}.png"
+        write_png(folder / name, numpy.repeat(covered[..., None], 3, -1))
+        pose = numpy.array(matrix) @ numpy.column_stack([rotation, -rotation @ eye])
+        views.append({"name": f"duck_{i:02}.png", "image": name, "P": pose.tolist(), "K": matrix,
+                      "distortion": [*DISTORTION, 0, 0, 0]})
+    (folder / "perfect.json").write_text(json.dumps({"cameras": views}))
+
+
+def errors_of_cameras(scene, count):
+    """Degrees between the axes of found and true cameras, and millimetres between their centres."""
+    angles, shifts = [], []
+    for view, (rotation, eye) in zip(json.loads(scene.read_text())["cameras"], cameras(count)):
+        pose = numpy.linalg.inv(numpy.array(view["K"])) @ numpy.array(view["P"])
+        pose /= numpy.cbrt(numpy.linalg.det(pose[:, :3]))
+        turn = pose[:, :3] @ rotation.T
+        sine = numpy.linalg.norm(turn - turn.T) / numpy.sqrt(8)
+        angles.append(numpy.degrees(numpy.arcsin(min(1, sine))))
+        shifts.append(numpy.linalg.norm(-numpy.linalg.solve(pose[:, :3], pose[:, 3]) - eye))
+    return numpy.array(angles), numpy.array(shifts)
+
+
+def textured_points(glb):
+    """Middles of the triangles of a GLB and their texture's colours there, up to 255."""
+    data = glb.read_bytes()
+    size = struct.unpack("<I", data[12:16])[0]
+    tree, body = json.loads(data[20:20 + size]), data[28 + size:]
+
+    def accessor(number, kind, width):
+        item = tree["accessors"][number]
+        at = tree["bufferViews"][item["bufferView"]].get("byteOffset", 0) + item.get("byteOffset", 0)
+        return numpy.frombuffer(body, kind, item["count"] * width, at).reshape(-1, width)
+    part = tree["meshes"][0]["primitives"][0]
+    kind = {5123: numpy.uint16, 5125: numpy.uint32}[tree["accessors"][part["indices"]]["componentType"]]
+    corners = accessor(part["indices"], kind, 1).reshape(-1, 3)
+    position = accessor(part["attributes"]["POSITION"], numpy.float32, 3)[corners].mean(1)
+    at = accessor(part["attributes"]["TEXCOORD_0"], numpy.float32, 2)[corners].mean(1)
+    image = tree["bufferViews"][tree["images"][0]["bufferView"]]
+    file = glb.with_suffix(".texture.png")
+    file.write_bytes(body[image.get("byteOffset", 0):][:image["byteLength"]])
+    pixels = read_png(file)
+    row, column = ((at[:, k] * pixels.shape[1 - k]).astype(int) for k in (1, 0))
+    area = numpy.linalg.norm(numpy.cross(*(accessor(part["attributes"]["POSITION"], numpy.float32, 3)[corners[:, k]] -
+                                           accessor(part["attributes"]["POSITION"], numpy.float32, 3)[corners[:, 0]]
+                                           for k in (1, 2))), axis=-1)
+    return position, pixels[row, column].astype(float), area
+
+
+def error_of_texture(glb, count):
+    """Mean difference, up to 255 and weighted by area, between the texture and what the cameras see there, without noise:
+    their mean, weighted by how squarely they look at the point, and the nearest of them; and the share of the hull's area
+    that some camera sees and the duck has there. The lamp stands still, so each camera sees another shade."""
+    position, colour, area = textured_points(glb)
+    position = position.astype(float)
+    total, weight = numpy.zeros(position.shape), numpy.zeros(len(position))
+    nearest = numpy.full(len(position), numpy.inf)
+    for rotation, eye in cameras(count):
+        rays = position - eye
+        t, which = first_hit(eye, rays)
+        seen = numpy.flatnonzero((which >= 0) & (numpy.abs(t - 1) * numpy.linalg.norm(rays, axis=-1) < 1.5))
+        there = eye + t[seen, None] * rays[seen]
+        shown, normal = paint_at(there, which[seen], eye, lamp_of(rotation, eye))
+        square = -(normal * rays[seen]).sum(-1) / numpy.linalg.norm(rays[seen], axis=-1)
+        seen, shown, square = seen[square > .1], 255 * numpy.clip(shown[square > .1], 0, 1), square[square > .1]
+        total[seen] += shown * square[:, None]
+        weight[seen] += square
+        nearest[seen] = numpy.minimum(nearest[seen], numpy.abs(colour[seen] - shown).mean(-1))
+    known = weight > 0
+    off = numpy.abs(colour[known] - total[known] / weight[known, None]).mean(-1)
+    share = area[known].sum()
+    return (off * area[known]).sum() / share, (nearest[known] * area[known]).sum() / share, share / area.sum()
+
+
 def run(*words):
     print("$", *words)
     done = subprocess.run([str(word) for word in words], capture_output=True, text=True)
     print(done.stdout + done.stderr, end="")
     if done.returncode:
         raise SystemExit(f"exit code {done.returncode}")
+    return done.stdout
 
 
 def beside(files, height=None):
@@ -206,7 +302,7 @@ def main():
     parser.add_argument("--bin", type=pathlib.Path, default="build/release/bin")
     parser.add_argument("--out", type=pathlib.Path, default="docs/pictures")
     parser.add_argument("--keep", type=pathlib.Path, help="folder for all files, which stays")
-    parser.add_argument("--views", type=int, default=16)
+    parser.add_argument("--views", type=int, default=24)
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
         folder = arguments.keep or pathlib.Path(scratch)
@@ -217,10 +313,20 @@ def main():
         run(hulls, "calibrate", folder / "photographs", "--lens", folder / "lens", "-o", folder / "scene.json")
         method = "--mask", "threshold:red-blue"
         run(hulls, "masks", folder / "photographs", *method, "-o", folder / "masks")
-        run(hulls, folder / "scene.json", *method, "--min-area", "400", "--repair-masks", "--simplify", "1", "--largest", "-o",
-            folder / "duck.nef")
-        run(nef, "picture", folder / "duck.nef", "-o", folder / "hull.png", "--from", "1,-1.3,.6")
-        print(f"the duck has {volume_of_duck():.0f} cubic millimetres")
+        found = run(hulls, folder / "scene.json", *method, "--min-area", "400", "--repair-masks", "--soft", "--simplify", ".2", "--largest", "--texture", "-o",
+                    folder / "duck.glb")
+        run(nef, "picture", folder / "duck.glb", "-o", folder / "hull.png", "--from", "1,-1.3,.6")
+        write_perfect_scene(folder, arguments.views)
+        perfect = run(hulls, folder / "perfect.json", "--soft", "--largest", "-o", folder / "perfect.nef")
+        volume, of_perfect = (float(re.search(r"volume (\S+)", text)[1]) for text in (found, perfect))
+        print(f"the duck has {volume_of_duck():.0f} cubic millimetres, the hull {volume:.0f}, the hull of true masks from true "
+              f"cameras {of_perfect:.0f}: {100 * (volume / of_perfect - 1):+.2f} %")
+        angles, shifts = errors_of_cameras(folder / "scene.json", arguments.views)
+        print(f"cameras are off by {angles.mean():.3f} degrees, at most {angles.max():.3f}, and by {shifts.mean():.2f} mm, at "
+              f"most {shifts.max():.2f}")
+        off, nearest, share = error_of_texture(folder / "duck.glb", arguments.views)
+        print(f"the texture is off by {off:.1f} of 255 from the mean of what cameras see, by {nearest:.1f} from the nearest of "
+              f"them, over the {100 * share:.0f} % of the hull where the duck is seen")
         pictures = folder / "photographs"
         write_png(arguments.out / "photographs.png", beside([pictures / f"duck_{i:02}.png" for i in (0, 5, 11)])[::2, ::2])
         write_png(arguments.out / "photographs_masks.png", read_png(folder / "masks/overview/masks.png")[:480])

@@ -18,6 +18,7 @@
 #include "apps/visual_hull/masks/cut_out.h"
 #include "apps/visual_hull/scene/place.h"
 #include "apps/visual_hull/scene/understanding.h"
+#include "apps/visual_hull/silhouette/opacity.h"
 #include "apps/visual_hull/stream.h"
 #include "apps/visual_hull/verify/empty_hull.h"
 #include "apps/visual_hull/viewing_edges/direct_hull.h"
@@ -106,11 +107,12 @@ void repair_cut_out(const Run& run, PixelOrigin origin, Result& result, std::vec
     if (view.image.empty()) continue;
     views.push_back({view.name, view.image, view.camera, view.distortion});
     numbers.push_back(i);
-    own.push_back(masks[i]);
+    own.push_back(object_of(masks[i]));
   }
   const std::vector<MaskChange> changes = repair_masks(views, origin, own, monitor);
   for (std::size_t k = 0; k < numbers.size(); ++k) {
-    masks[numbers[k]] = own[k];
+    cv::Mat& mask = masks[numbers[k]];
+    own[k].copyTo(mask, object_of(mask) != own[k]);
     result.views[numbers[k]].mask_change = changes[k];
   }
   const nef::Messages lines = change_lines(views, changes);
@@ -126,7 +128,9 @@ void cut_out_views(const Run& run, const Scene& scene, Result& result, std::vect
   }
   if (photographs.empty()) return;
   run.tell(Phase::kLoad, "masks", 0, photographs.size());
-  CutOuts cut = cut_out(photographs, *run.options.mask, monitor);
+  MaskMethod method = *run.options.mask;
+  method.soft = run.options.silhouette.soft;
+  CutOuts cut = cut_out(photographs, method, monitor);
   result.notes.push_back("masks: " + cut.chosen);
   result.notes.insert(result.notes.end(), cut.notes.begin(), cut.notes.end());
   std::size_t next = 0;

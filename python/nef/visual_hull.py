@@ -89,7 +89,7 @@ class Hull(NamedTuple):
     texture: Optional[Texture] = None
 
 
-_OPTIONS = dict(box=None, tolerance=0, outer=False, min_area=0, half_pixels=False, unknown_beyond=False, images=None,
+_OPTIONS = dict(box=None, tolerance=0, outer=False, soft=False, min_area=0, half_pixels=False, unknown_beyond=False, images=None,
                 mask=None, threshold=None, channel=None, invert=False, way="best", repair_masks=False, refine=False, suspects=False, drop_suspects=False, at_least=None,
                 largest=False, verify=True, threads=1)
 
@@ -120,6 +120,15 @@ def _mask(mask):
     return numpy.asarray(mask)
 
 
+def _opacity(mask, soft):
+    """Bytes: 255 where a mask is not 0, or, if `soft`, what the mask has."""
+    if not soft:
+        return numpy.where(mask != 0, 255, 0).astype(numpy.uint8)
+    if mask.dtype == bool or mask.size and not (0 <= mask.min() and mask.max() <= 255):
+        raise InputError("soft masks are numbers from 0 to 255")
+    return mask.astype(numpy.uint8)
+
+
 def _told(error, names):
     """The error with `view` set to the view that its text names."""
     text = str(error).replace("view view ", "view ")  # "view 0" is a name
@@ -129,7 +138,7 @@ def _told(error, names):
 
 
 def compute(masks: Sequence[Any], cameras: Sequence[Any], names: Optional[Sequence[str]] = None, *, box: Any = None,
-            tolerance: float = 0, outer: bool = False, min_area: float = 0, half_pixels: bool = False,
+            tolerance: float = 0, outer: bool = False, soft: bool = False, min_area: float = 0, half_pixels: bool = False,
             unknown_beyond: bool = False, lens: Any = None, photographs: Optional[Sequence[Any]] = None, suspects: bool = False, drop_suspects: bool = False,
             at_least: Optional[int] = None, largest: bool = False, verify: bool = True, threads: int = 1,
             progress: Progress = None) -> Hull:
@@ -142,6 +151,8 @@ def compute(masks: Sequence[Any], cameras: Sequence[Any], names: Optional[Sequen
     - box: two corners that bound the hull; found from the cameras if None
     - tolerance: by how many pixels silhouettes may be simplified; 0 keeps every corner
     - outer: simplified silhouettes contain the masks, so the hull is an outer bound
+    - soft: masks are opacities from 0 to 255, and outlines run where these are half, between centres of pixels, instead of
+      along edges of pixels
     - min_area: islands and holes of fewer square pixels are dropped and filled (with outer: holes only)
     - half_pixels: False: whole coordinates are centres of pixels, as OpenCV has it; True: corners of pixels
     - unknown_beyond: keep, instead of carving, what lies beyond the frame of an image
@@ -167,11 +178,11 @@ def compute(masks: Sequence[Any], cameras: Sequence[Any], names: Optional[Sequen
         if shapes != [(*mask.shape, 3) for mask in masks]:
             raise InputError("each mask of shape (H, W) needs a photograph of shape (H, W, 3)")
     lenses = None if lens is None else _lenses(lens, len(masks))
-    options = _options(box=box, tolerance=tolerance, outer=outer, min_area=min_area, half_pixels=half_pixels,
+    options = _options(box=box, tolerance=tolerance, outer=outer, soft=soft, min_area=min_area, half_pixels=half_pixels,
                        unknown_beyond=unknown_beyond, suspects=suspects, drop_suspects=drop_suspects, at_least=at_least,
                        largest=largest, verify=verify, threads=threads)
     with tempfile.TemporaryDirectory() as folder:
-        images = _written(masks, photographs, folder)
+        images = _written([_opacity(mask, soft) for mask in masks], photographs, folder)
         try:
             hull = _hull(_visual_hull.from_views(names, images, cameras, lenses, folder, options, photographs is not None,
                                                  progress))
@@ -189,7 +200,7 @@ def _written(masks, photographs, folder):
         os.mkdir(os.path.join(folder, sub))
     for i, mask in enumerate(masks):
         images.append(os.path.join(folder, "masks", f"{i}.png"))
-        _visual_hull.write_mask((mask != 0).astype(numpy.uint8), images[-1])
+        _visual_hull.write_mask(mask, images[-1])
         if photographs is not None:
             _visual_hull.write_photograph(numpy.asarray(photographs[i], numpy.uint8), os.path.join(folder, "images", f"{i}.png"))
     return images
@@ -203,7 +214,7 @@ def _lenses(lens, count):
     return [(numpy.asarray(k).tolist(), [float(c) for c in coefficients]) for k, coefficients in pairs]
 
 
-def read(path: Any, *, box: Any = None, tolerance: float = 0, outer: bool = False, min_area: float = 0,
+def read(path: Any, *, box: Any = None, tolerance: float = 0, outer: bool = False, soft: bool = False, min_area: float = 0,
          half_pixels: bool = False, unknown_beyond: bool = False, images: Any = None, threshold: Any = None,
          channel: Optional[str] = None, invert: bool = False, mask: Optional[str] = None, repair_masks: bool = False,
          matrices: Optional[str] = None, up: Optional[str] = None, turntable: Optional[int] = None,
@@ -229,7 +240,7 @@ def read(path: Any, *, box: Any = None, tolerance: float = 0, outer: bool = Fals
     - texture: make `texture` of the result from the photographs: the images themselves, or for masks/NAME those of the same
       names in images/
     """
-    options = _options(box=box, tolerance=tolerance, outer=outer, min_area=min_area, half_pixels=half_pixels,
+    options = _options(box=box, tolerance=tolerance, outer=outer, soft=soft, min_area=min_area, half_pixels=half_pixels,
                        unknown_beyond=unknown_beyond, images=None if images is None else os.fspath(images), mask=mask,
                        threshold=threshold, channel=channel, invert=invert, way=way, repair_masks=repair_masks, refine=refine, suspects=suspects, drop_suspects=drop_suspects,
                        at_least=at_least, largest=largest, verify=verify, threads=threads)
@@ -278,23 +289,23 @@ class Refinement(NamedTuple):
 
 
 def refine(masks: Sequence[Any], cameras: Optional[Sequence[Any]] = None, names: Optional[Sequence[str]] = None, *,
-           half_pixels: bool = False, threads: int = 1) -> Refinement:
+           half_pixels: bool = False, soft: bool = False, threads: int = 1) -> Refinement:
     """Corrects cameras so that the silhouettes agree, if this also improves pieces of outlines that were not used;
     otherwise returns those given. The result does not depend on the number of threads.
 
-    - masks, names, half_pixels, threads: as in compute
+    - masks, names, half_pixels, soft, threads: as in compute
     - cameras: as in compute; None: the masks are of one full turn of a turntable in equal steps, with square pixels, of
       which nothing else is known; the distance of the camera from the axis, which is z, is then about 1
 
     Raises InputError for an empty mask, a matrix that is not a camera, or too few views.
     """
-    masks = [(_mask(mask) != 0).astype(numpy.uint8) for mask in masks]
+    masks = [_opacity(_mask(mask), soft) for mask in masks]
     names = [f"view {i}" for i in range(len(masks))] if names is None else [str(name) for name in names]
     given = None if cameras is None else [numpy.asarray(camera).tolist() for camera in cameras]
     if len(masks) != len(names) or (given is not None and len(given) != len(masks)):
         raise InputError(f"{len(masks)} masks need as many cameras and names")
     try:
-        answer = _visual_hull.refine(names, masks, given, half_pixels, threads)
+        answer = _visual_hull.refine(names, masks, given, half_pixels, soft, threads)
     except InputError as error:
         raise _told(error, names) from None
     found = _refinement(answer)
@@ -310,7 +321,7 @@ def _refinement(answer):
 class Masks(NamedTuple):
     """Masks of photographs."""
 
-    #: arrays of shape (H, W), True where the object is
+    #: arrays of shape (H, W), True where the object is; if soft, opacities from 0 to 255
     masks: List[Any]
     #: how clearly both sides of each outline differ; 0: not at all
     quality: List[float]
@@ -320,13 +331,16 @@ class Masks(NamedTuple):
     notes: Sequence[str]
 
 
-def masks(photographs: Sequence[Any], method: str = "auto", *, threads: int = 1) -> Masks:
+def masks(photographs: Sequence[Any], method: str = "auto", *, soft: bool = False, threads: int = 1) -> Masks:
     """Cuts one object out of photographs (files), by one method for all, as `visual_hull --mask` takes it
-    ("auto", "threshold:red-blue", "background:median", "key:green", "grabcut", ...).
+    ("auto", "threshold:red-blue", "background:median", "key:green", "grabcut", ...). With `soft`, masks are opacities, for
+    `compute(..., soft=True)`: outlines to a fraction of a pixel, except from "grabcut".
 
     Raises InputError for a photograph that cannot be read, and for an unknown method.
     """
-    answer = Masks(*_visual_hull.masks(_files(photographs), method, threads))
+    answer = Masks(*_visual_hull.masks(_files(photographs), method, soft, threads))
+    if not soft:
+        answer = answer._replace(masks=[mask != 0 for mask in answer.masks])
     for note in answer.notes:
         warnings.warn(note, InputWarning, stacklevel=2)
     return answer
@@ -347,7 +361,7 @@ class CalibratedView(NamedTuple):
     """The result for one photograph."""
 
     photograph: str
-    #: corners of the board that were found
+    #: corners of the board that were found; those that disagree with all others are not counted
     corners: int
     #: pixels between corners as seen and as the camera sees them (root mean square); None if it was refused
     error: Optional[float]
@@ -435,7 +449,7 @@ class Combination(NamedTuple):
     notes: Sequence[str]
 
 
-def combine(scenes: Sequence[Any], scene: Any, *, min_area: float = 0, threshold: Any = None, channel: Optional[str] = None,
+def combine(scenes: Sequence[Any], scene: Any, *, soft: bool = False, min_area: float = 0, threshold: Any = None, channel: Optional[str] = None,
             invert: bool = False, mask: Optional[str] = None, threads: int = 1) -> Combination:
     """Places series of photographs of one rigid object, which was turned over in between, by their silhouettes.
 
@@ -449,7 +463,7 @@ def combine(scenes: Sequence[Any], scene: Any, *, min_area: float = 0, threshold
     """
     if isinstance(scenes, (str, bytes, os.PathLike)):
         raise TypeError(f"scenes must be a list of files, not {scenes!r}")
-    options = _options(min_area=min_area, threshold=threshold, channel=channel, invert=invert, mask=mask, threads=threads)
+    options = _options(soft=soft, min_area=min_area, threshold=threshold, channel=channel, invert=invert, mask=mask, threads=threads)
     series, notes = _visual_hull.combine([os.fspath(file) for file in scenes], os.fspath(scene), options)
     for note in notes:
         warnings.warn(note, InputWarning, stacklevel=2)

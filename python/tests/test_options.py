@@ -159,6 +159,7 @@ PROGRAMS = {
         "--invert": "nef.visual_hull.read(invert)",
         "--pixel-origin": "nef.visual_hull.compute(half_pixels)",
         "--border": "nef.visual_hull.compute(unknown_beyond)",
+        "--soft": "nef.visual_hull.compute(soft)",
         "--min-area": "nef.visual_hull.compute(min_area)",
         "--simplify": "nef.visual_hull.compute(tolerance)",
         "--outer": "nef.visual_hull.compute(outer)",

@@ -62,6 +62,9 @@ void add_mask_options(CLI::App& app, Arguments& a) {
          "--pixel-origin", a.origin,
          "Whether whole image coordinates are the center or the upper left corner of a pixel (default: by format)")
       ->check(CLI::IsMember({"center", "corner"}));
+  app.add_flag("--soft", a.soft,
+               "Outlines to a fraction of a pixel: where the opacity, or what the threshold compares, is half between "
+               "centres of pixels (default: along the edges of pixels)");
   app.add_option("--min-area", a.min_area,
                  "Drop islands and fill holes of fewer square pixels (with --outer holes only)")
       ->check(nef::not_negative())
@@ -184,7 +187,8 @@ std::string mask_help() {
   return "auto (the measure that separates best), threshold[:CHANNEL[:LEVEL]] (<LEVEL: darker ones), background:FILE "
          "(a picture "
          "without the object), background:median (of a still camera), key:COLOUR (of a screen: #RRGGBB or a name), or "
-         "grabcut[:X,Y,W,H]";
+         "grabcut[:X,Y,W,H], or grabcut:STROKES (a picture, or a folder of pictures, of the photographs' names, with "
+         "#00FF00 painted over the object and #FF0000 over the background)";
 }
 
 void add_options(CLI::App& app, Arguments& arguments) {
@@ -199,6 +203,7 @@ Options to_options(const Arguments& a) {
   Options options;
   options.silhouette.simplify = {a.simplify, a.outer};
   options.silhouette.min_area = a.min_area;
+  options.silhouette.soft = a.soft;
   if (a.session.mesh_file.manifold) options.silhouette.diagonal = DiagonalPixels::kJoin;
   options.silhouette.border = a.border == "unknown" ? Border::kUnknown : Border::kOutside;
   if (!a.origin.empty()) options.origin = a.origin == "corner" ? PixelOrigin::kCorner : PixelOrigin::kCenter;

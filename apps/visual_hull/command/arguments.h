@@ -22,6 +22,7 @@ struct Arguments {
   std::string scene;
   std::size_t decimate = 0;  ///< triangles; 0: not
   double min_area = 0;
+  bool soft = false;
   double simplify = 0;
   bool outer = false;
   bool color = false;

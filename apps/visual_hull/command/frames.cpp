@@ -62,6 +62,7 @@ json settings_of(const Arguments& a) {
           {"color", a.color},
           {"texture", a.texture},
           {"min_area", a.min_area},
+          {"soft", a.soft},
           {"border", a.border},
           {"box", a.box},
           {"pixel_origin", a.origin},

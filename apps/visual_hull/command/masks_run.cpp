@@ -16,6 +16,7 @@
 #include "apps/visual_hull/command/overlay.h"
 #include "apps/visual_hull/command/photographs.h"
 #include "apps/visual_hull/masks/cut_out.h"
+#include "apps/visual_hull/silhouette/opacity.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/io/file_bytes.h"
@@ -30,6 +31,7 @@ struct MaskArguments {
   nef::Session session{"visual_hull", std::cout, std::cerr};
   std::vector<std::string> photographs;
   std::string mask = "auto";
+  bool soft = false;
   std::string overview;
 };
 
@@ -61,7 +63,9 @@ void write_masks(const CutOuts& cut, const std::vector<fs::path>& photographs, c
     cv::cvtColor(cut.masks[i], picture, cv::COLOR_GRAY2BGR);
     write_picture(targets[i], picture);
   }
-  write_picture(overview, mask_overview(photographs, cut.masks));
+  std::vector<cv::Mat> objects;
+  for (const cv::Mat& mask : cut.masks) objects.push_back(object_of(mask));
+  write_picture(overview, mask_overview(photographs, objects));
 }
 
 nef::Json report_of(const CutOuts& cut, const std::vector<fs::path>& photographs) {
@@ -70,7 +74,7 @@ nef::Json report_of(const CutOuts& cut, const std::vector<fs::path>& photographs
     const cv::Mat& mask = cut.masks[i];
     report["masks"].push_back(
         {{"photograph", photographs[i].string()},
-         {"share", static_cast<double>(cv::countNonZero(mask)) / static_cast<double>(mask.total())},
+         {"share", static_cast<double>(cv::countNonZero(object_of(mask))) / static_cast<double>(mask.total())},
          {"quality", cut.quality[i]}});
   }
   return report;
@@ -78,7 +82,8 @@ nef::Json report_of(const CutOuts& cut, const std::vector<fs::path>& photographs
 
 int run(MaskArguments& a) {
   nef::Session& session = a.session;
-  const MaskMethod method = parse_mask_method(a.mask);
+  MaskMethod method = parse_mask_method(a.mask);
+  method.soft = a.soft;
   const std::vector<fs::path> photographs = photographs_of(a.photographs);
   const fs::path folder = session.output;
   const std::vector<fs::path> targets = targets_of(photographs, folder);
@@ -113,6 +118,9 @@ int run_masks_command(int argc, char** argv) {
   app.add_option("PHOTOGRAPHS", a.photographs, "A folder of photographs, or files")->required();
   app.add_option("-o,--output", a.session.output, "Directory for the masks")->required()->type_name("DIR");
   app.add_option("--mask", a.mask, mask_help())->type_name("METHOD")->capture_default_str();
+  app.add_flag("--soft", a.soft,
+               "Shades of grey along the outlines, for visual_hull --soft: outlines to a fraction of a pixel (not from "
+               "grabcut)");
   app.add_option("--overview", a.overview,
                  "A picture of all masks over their photographs (default: DIR/overview/masks.png)")
       ->type_name("FILE.png");

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <functional>
 #include <numeric>
 #include <opencv2/imgproc.hpp>
@@ -16,7 +17,10 @@
 #include "apps/visual_hull/masks/grab_cut.h"
 #include "apps/visual_hull/masks/measures.h"
 #include "apps/visual_hull/masks/separation.h"
+#include "apps/visual_hull/masks/soft_outline.h"
+#include "apps/visual_hull/masks/strokes.h"
 #include "apps/visual_hull/scene/image_file.h"
+#include "apps/visual_hull/silhouette/opacity.h"
 #include "apps/visual_hull/silhouette/silhouette.h"
 #include "nef/base/error.h"
 #include "nef/base/threads/parallel.h"
@@ -30,7 +34,6 @@ using Photographs = std::vector<fs::path>;
 constexpr std::size_t kMostTried = 8;    // photographs for the choice of a measure
 constexpr std::size_t kMostMedian = 15;  // photographs that a median is made of
 constexpr double kClear = 2;             // quality of outlines
-constexpr double kMargin = 0.05;         // around an object that nobody has marked
 constexpr double kOddArea = 3;           // times the median's
 
 /// A measure with its level for the whole series.
@@ -44,34 +47,42 @@ class Series {
  public:
   Series(const Photographs& files, const nef::Monitor& monitor) : files_(files), monitor_(monitor) {}
 
-  [[nodiscard]] CutOuts by_rule(const Rule& rule) const {
-    CutOuts result = make(
-        [&rule](const cv::Mat& picture) { return object_above(rule.measure.of(picture), rule.level); }, &rule.measure);
+  [[nodiscard]] CutOuts by_rule(const Rule& rule, bool soft) const {
+    CutOuts result = start();
+    each_picture([&](std::size_t i, const cv::Mat& picture) {
+      const cv::Mat values = rule.measure.of(picture);
+      const cv::Mat mask = object_above(values, rule.level);
+      result.masks[i] = soft ? soft_outline(values, mask) : mask;
+      result.quality[i] = separation(values, mask).quality;
+    });
     result.chosen = fmt::format("{} above {:.1f}", rule.measure.name, rule.level);
     return result;
   }
 
-  [[nodiscard]] CutOuts by_grab_cut(const std::optional<std::array<int, 4>>& given) const {
-    CutOuts result = make(
-        [&given](const cv::Mat& picture) {
-          const int dx = static_cast<int>(kMargin * picture.cols) + 1;
-          const int dy = static_cast<int>(kMargin * picture.rows) + 1;
-          cv::Rect rectangle(dx, dy, picture.cols - 2 * dx, picture.rows - 2 * dy);
-          if (given) rectangle = {(*given)[0], (*given)[1], (*given)[2], (*given)[3]};
-          return cut_in_rectangle(picture, rectangle);
-        },
-        nullptr);
-    result.chosen = given ? "GrabCut in the given rectangle" : "GrabCut within margins of 5 %";
+  [[nodiscard]] CutOuts by_grab_cut(const MaskMethod& method) const {
+    CutOuts result = start();
+    std::atomic<std::size_t> with_strokes = 0;
+    each_picture([&](std::size_t i, const cv::Mat& picture) {
+      const fs::path strokes = method.strokes.empty() ? fs::path() : strokes_of(method.strokes, files_[i]);
+      if (!strokes.empty()) ++with_strokes;
+      result.masks[i] = strokes.empty() ? cut_in_rectangle(picture, rectangle_of(method, picture.size()))
+                                        : cut_by_strokes(picture, seeds_of_file(strokes, files_[i], picture.size()));
+      result.quality[i] = clearest(picture, result.masks[i]);
+    });
+    result.chosen = method.rectangle ? "GrabCut in the given rectangle" : "GrabCut within margins of 5 %";
+    if (!method.strokes.empty()) {
+      result.chosen = fmt::format("GrabCut, by strokes in {} of {} photographs", with_strokes, files_.size());
+    }
     return result;
   }
 
-  [[nodiscard]] CutOuts by_alpha() const {
-    CutOuts result;
+  [[nodiscard]] CutOuts by_alpha(bool soft) const {
+    CutOuts result = start();
     result.chosen = "alpha";
-    result.masks.resize(files_.size());
     result.quality.assign(files_.size(), 1e3);
     nef::parallel_for(files_.size(), monitor_, [&](std::size_t i, const nef::Monitor&) {
-      result.masks[i] = make_mask(read_pixels(files_[i]), {});
+      const cv::Mat pixels = read_pixels(files_[i]);
+      result.masks[i] = soft ? make_opacity(pixels, {}) : make_mask(pixels, {});
     });
     return result;
   }
@@ -143,17 +154,31 @@ class Series {
     return {measure, median_of(levels), median_of(qualities)};
   }
 
-  [[nodiscard]] CutOuts make(const std::function<cv::Mat(const cv::Mat& picture)>& cut, const Measure* measure) const {
+  [[nodiscard]] CutOuts start() const {
     CutOuts result;
     result.masks.resize(files_.size());
     result.quality.resize(files_.size());
-    nef::parallel_for(files_.size(), monitor_, [&](std::size_t i, const nef::Monitor&) {
-      const cv::Mat picture = read_picture(files_[i]);
-      result.masks[i] = cut(picture);
-      result.quality[i] = measure != nullptr ? separation(measure->of(picture), result.masks[i]).quality
-                                             : clearest(picture, result.masks[i]);
-    });
     return result;
+  }
+
+  void each_picture(const std::function<void(std::size_t i, const cv::Mat& picture)>& body) const {
+    nef::parallel_for(files_.size(), monitor_,
+                      [&](std::size_t i, const nef::Monitor&) { body(i, read_picture(files_[i])); });
+  }
+
+  static cv::Rect rectangle_of(const MaskMethod& method, const cv::Size& size) {
+    if (!method.rectangle) return inside_margins(size);
+    const auto& [x, y, width, height] = *method.rectangle;
+    return {x, y, width, height};
+  }
+
+  static cv::Mat seeds_of_file(const fs::path& strokes, const fs::path& photograph, const cv::Size& size) {
+    const cv::Mat picture = read_picture(strokes);
+    if (picture.size() != size) {
+      throw nef::InputError(fmt::format("{} has {} x {} pixels, its photograph {} {} x {}", strokes.string(),
+                                        picture.cols, picture.rows, photograph.string(), size.width, size.height));
+    }
+    return seeds_from_strokes(picture, strokes.string());
   }
 
   // Of a mask that comes from no measure: by the channel that shows it best.
@@ -176,30 +201,30 @@ Rule given_level(const MaskMethod& method) {
 CutOuts masks_by(const Series& series, const MaskMethod& method) {
   switch (method.kind) {
     case MaskMethod::Kind::kThreshold:
-      if (method.level) return series.by_rule(given_level(method));
+      if (method.level) return series.by_rule(given_level(method), method.soft);
       return series.by_rule(
-          series.best({channel_measure(method.channel, false), channel_measure(method.channel, true)}));
+          series.best({channel_measure(method.channel, false), channel_measure(method.channel, true)}), method.soft);
     case MaskMethod::Kind::kBackground:
-      return series.by_rule(series.best({background_measure(read_picture(method.background))}));
+      return series.by_rule(series.best({background_measure(read_picture(method.background))}), method.soft);
     case MaskMethod::Kind::kMedian:
-      return series.by_rule(series.best({background_measure(series.median())}));
+      return series.by_rule(series.best({background_measure(series.median())}), method.soft);
     case MaskMethod::Kind::kKey:
-      return series.by_rule(series.best({key_measure(method.key)}));
+      return series.by_rule(series.best({key_measure(method.key)}), method.soft);
     case MaskMethod::Kind::kGrabCut:
-      return series.by_grab_cut(method.rectangle);
+      return series.by_grab_cut(method);
     case MaskMethod::Kind::kAuto:
       break;
   }
-  if (series.has_alpha()) return series.by_alpha();
+  if (series.has_alpha()) return series.by_alpha(method.soft);
   const Rule rule = series.best(channel_measures());
-  return rule.quality >= kClear ? series.by_rule(rule) : series.by_grab_cut(std::nullopt);
+  return rule.quality >= kClear ? series.by_rule(rule, method.soft) : series.by_grab_cut({});
 }
 
 // Masks that want a look.
 nef::Messages doubts(const Photographs& files, const CutOuts& cut) {
   nef::Messages notes;
   std::vector<double> areas;
-  for (const cv::Mat& mask : cut.masks) areas.push_back(cv::countNonZero(mask));
+  for (const cv::Mat& mask : cut.masks) areas.push_back(cv::countNonZero(object_of(mask)));
   const double usual = median_of(areas);
   for (std::size_t i = 0; i < files.size(); ++i) {
     const std::string name = files[i].filename().string() + ": ";

@@ -16,7 +16,7 @@ namespace nef::visual_hull {
 
 /// The masks of a series.
 struct CutOuts {
-  std::vector<cv::Mat> masks;   ///< one a photograph: 8 bits, 255 where the object is
+  std::vector<cv::Mat> masks;   ///< one a photograph: 8 bits, 255 where the object is, else 0; opacities if soft
   std::vector<double> quality;  ///< how clearly both sides of each outline differ (Separation); 0: not at all
   std::string chosen;           ///< how they were made: "red-blue above 121.9"
   nef::Messages notes;          ///< masks to be looked at, and why

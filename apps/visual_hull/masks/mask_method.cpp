@@ -76,11 +76,13 @@ MaskMethod parse_mask_method(const std::string& text) {
     method.key = parse_color(text, rest);
   } else if (word == "grabcut") {
     method.kind = Kind::kGrabCut;
-    if (!rest.empty()) method.rectangle = parse_rectangle(text, rest);
+    const bool numbers = rest.find_first_not_of("0123456789,.- ") == std::string::npos;
+    if (!rest.empty() && numbers) method.rectangle = parse_rectangle(text, rest);
+    if (!numbers) method.strokes = rest;
   } else {
     refuse(text,
            "it is auto, threshold[:CHANNEL[:LEVEL]], background:FILE, background:median, key:COLOUR or "
-           "grabcut[:X,Y,WIDTH,HEIGHT]");
+           "grabcut[:X,Y,WIDTH,HEIGHT] or grabcut:STROKES");
   }
   return method;
 }

@@ -23,10 +23,12 @@ struct MaskMethod {
   std::filesystem::path background;             ///< of kBackground: a picture without the object
   std::array<int, 3> key{};                     ///< of kKey: red, green and blue, of 255
   std::optional<std::array<int, 4>> rectangle;  ///< of kGrabCut: x, y, width, height in pixels
+  std::filesystem::path strokes;  ///< of kGrabCut: a picture with strokes, or a folder of them (strokes.h)
+  bool soft = false;              ///< masks are opacities (silhouette/opacity.h), if the method tells them
 };
 
 /// Parses "auto", "threshold[:CHANNEL[:LEVEL|:<LEVEL]]", "background:FILE", "background:median", "key:#RRGGBB",
-/// "key:NAME" of a colour, or "grabcut[:X,Y,WIDTH,HEIGHT]". Throws InputError.
+/// "key:NAME" of a colour, or "grabcut[:X,Y,WIDTH,HEIGHT|:STROKES]". Throws InputError.
 MaskMethod parse_mask_method(const std::string& text);
 
 }  // namespace nef::visual_hull

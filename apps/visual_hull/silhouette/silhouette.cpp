@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Image -> mask -> contours -> silhouette. The mask compares a channel with a threshold (half of the range, a number,
-// or Otsu's). Its contours are traced along pixel borders, small ones are dropped, the distortion of the lens is undone
-// on the contours, and they are simplified. If a silhouette that the frame cuts may go on beyond it, the background is
-// taken instead: the mask is padded by one pixel of object, so that what the outermost ring contains and the silhouette
-// does not is the background that is seen for sure.
+// or Otsu's). Its contours are traced along pixel borders, or, for soft masks, at half opacity between centres; small
+// ones are dropped, the distortion of the lens is undone on the contours, and they are simplified. If a silhouette that
+// the frame cuts may go on beyond it, the background is taken instead: the mask is padded by one pixel of object, so
+// that what the outermost ring contains and the silhouette does not is the background that is seen for sure.
 #include "apps/visual_hull/silhouette/silhouette.h"
 
 #include <algorithm>
@@ -15,29 +15,50 @@
 
 #include "apps/visual_hull/scene/image_file.h"
 #include "apps/visual_hull/silhouette/channel.h"
+#include "apps/visual_hull/silhouette/half_contour.h"
 #include "apps/visual_hull/silhouette/lens.h"
+#include "apps/visual_hull/silhouette/opacity.h"
 #include "nef/base/error.h"
 
 namespace nef::visual_hull {
 namespace {
 
-cv::Mat default_mask(const cv::Mat& image, ThresholdOptions::Channel channel) {
+/// What a threshold compares.
+struct Levelled {
+  cv::Mat values;  ///< one channel
+  double level;    ///< of the largest value that is background
+};
+
+Levelled by_default(const cv::Mat& image, ThresholdOptions::Channel channel) {
+  const double half = full_scale(image.depth()) / 2;
   if (image.channels() == 4 && channel == ThresholdOptions::Channel::kGray) {
     cv::Mat alpha;
     cv::extractChannel(image, alpha, 3);
     double low = 0;
     double high = 0;
     cv::minMaxLoc(alpha, &low, &high);
-    if (low < high) return alpha > full_scale(image.depth()) / 2;
+    if (low < high) return {alpha, half};
   }
-  return pick_channel(image, channel) > full_scale(image.depth()) / 2;
+  return {pick_channel(image, channel), half};
 }
 
-cv::Mat otsu_mask(cv::Mat gray) {
+Levelled by_otsu(cv::Mat gray) {
   if (gray.depth() != CV_8U) gray.convertTo(gray, CV_8U, 255 / full_scale(gray.depth()));
-  cv::Mat mask;
-  cv::threshold(gray, mask, 0, 255, cv::THRESH_BINARY | cv::THRESH_OTSU);
-  return mask;
+  cv::Mat unused;
+  const double level = cv::threshold(gray, unused, 0, 255, cv::THRESH_BINARY | cv::THRESH_OTSU);
+  return {gray, level};
+}
+
+Levelled levelled(const cv::Mat& image, const ThresholdOptions& options) {
+  switch (options.kind) {
+    case ThresholdOptions::Kind::kOtsu:
+      return by_otsu(pick_channel(image, options.channel));
+    case ThresholdOptions::Kind::kValue:
+      return {pick_channel(image, options.channel), options.value};
+    case ThresholdOptions::Kind::kDefault:
+      break;
+  }
+  return by_default(image, options.channel);
 }
 
 // Drops contours around less than `least`. What lies inside such a contour is smaller still, so parity stays right. A
@@ -57,15 +78,19 @@ Silhouette without_specks(Silhouette traced, double least, bool outer, const nef
   return nest(std::move(kept), monitor);
 }
 
+Silhouette traced_without_specks(const cv::Mat& mask, const SilhouetteOptions& options, const nef::Monitor& monitor) {
+  Silhouette traced = options.soft ? trace_half_contours(mask, options.origin, monitor)
+                                   : trace_contours(mask, options.origin, options.diagonal, monitor);
+  return without_specks(std::move(traced), options.min_area, options.simplify.outer, monitor);
+}
+
 // The silhouette with all that is not seen, on a frame that is one pixel larger; then what is
 // inside its outermost ring but not in it: the background that is seen for sure.
 Silhouette seen_background(const cv::Mat& mask, const Distortion& lens, const std::string& view,
                            const SilhouetteOptions& options, ViewSilhouette& result, const nef::Monitor& monitor) {
   cv::Mat padded;
   cv::copyMakeBorder(mask, padded, 1, 1, 1, 1, cv::BORDER_CONSTANT, cv::Scalar(255));
-  const PixelOrigin origin = options.origin;
-  Silhouette traced = without_specks(trace_contours(padded, origin, options.diagonal, monitor), options.min_area,
-                                     options.simplify.outer, monitor);
+  Silhouette traced = traced_without_specks(padded, options, monitor);
   for (Ring& ring : traced.rings) {  // the frame has grown by one pixel to the left and above
     for (Point2& p : ring) p = Point2(p.x() - 1, p.y() - 1);
   }
@@ -108,20 +133,17 @@ cv::Mat read_photograph(const std::filesystem::path& image, const Distortion& di
 }
 
 cv::Mat make_mask(const cv::Mat& image, const ThresholdOptions& options) {
-  cv::Mat mask;
-  switch (options.kind) {
-    case ThresholdOptions::Kind::kDefault:
-      mask = default_mask(image, options.channel);
-      break;
-    case ThresholdOptions::Kind::kOtsu:
-      mask = otsu_mask(pick_channel(image, options.channel));
-      break;
-    case ThresholdOptions::Kind::kValue:
-      mask = pick_channel(image, options.channel) > options.value;
-      break;
-  }
+  const Levelled found = levelled(image, options);
+  cv::Mat mask = found.values > found.level;
   if (options.invert) cv::bitwise_not(mask, mask);
   return mask;
+}
+
+cv::Mat make_opacity(const cv::Mat& image, const ThresholdOptions& options) {
+  const Levelled found = levelled(image, options);
+  cv::Mat opacity = opacity_of(found.values, found.level, full_scale(found.values.depth()), found.values > found.level);
+  if (options.invert) cv::bitwise_not(opacity, opacity);
+  return opacity;
 }
 
 cv::Mat read_mask(const std::filesystem::path& image, const std::string& view, const SilhouetteOptions& options) {
@@ -132,11 +154,11 @@ cv::Mat read_mask(const std::filesystem::path& image, const std::string& view, c
   }
   cv::Mat mask;
   try {
-    mask = make_mask(pixels, options.threshold);
+    mask = options.soft ? make_opacity(pixels, options.threshold) : make_mask(pixels, options.threshold);
   } catch (const nef::InputError& error) {
     throw nef::InputError("view " + view + ": " + image.string() + ": " + error.what());
   }
-  if (cv::countNonZero(mask) == 0) {
+  if (cv::countNonZero(object_of(mask)) == 0) {
     double low = 0;
     double high = 0;
     cv::minMaxLoc(pick_channel(pixels, options.threshold.channel), &low, &high);
@@ -150,11 +172,11 @@ cv::Mat read_mask(const std::filesystem::path& image, const std::string& view, c
 
 ViewSilhouette silhouette_of_mask(const cv::Mat& mask, const Distortion& lens, const std::string& view,
                                   const SilhouetteOptions& options, const nef::Monitor& monitor) {
-  if (cv::countNonZero(mask) == 0) throw nef::InputError("view " + view + ": the silhouette is empty");
+  const cv::Mat object = options.soft ? object_of(mask) : mask;
+  if (cv::countNonZero(object) == 0) throw nef::InputError("view " + view + ": the silhouette is empty");
   ViewSilhouette result;
   result.image_size = mask.size();
-  Silhouette traced = without_specks(trace_contours(mask, options.origin, options.diagonal, monitor), options.min_area,
-                                     options.simplify.outer, monitor);
+  Silhouette traced = traced_without_specks(mask, options, monitor);
   if (traced.empty()) {
     throw nef::InputError("view " + view + ": the silhouette is empty without contours of less than " +
                           std::to_string(options.min_area) + " square pixels (--min-area)");
@@ -162,7 +184,7 @@ ViewSilhouette silhouette_of_mask(const cv::Mat& mask, const Distortion& lens, c
   result.contours = traced.rings.size();
   result.holes = traced.hole_count();
   result.contour_vertices = traced.vertex_count();
-  result.cut_by_frame = touches_frame(mask);
+  result.cut_by_frame = touches_frame(object);
   result.background = result.cut_by_frame && options.border == Border::kUnknown;
   if (result.background) {
     result.region = seen_background(mask, lens, view, options, result, monitor);

@@ -25,6 +25,7 @@ struct SilhouetteOptions {
   Border border = Border::kOutside;
   SimplifyOptions simplify;
   DiagonalPixels diagonal = DiagonalPixels::kTouch;
+  bool soft = false;    ///< outlines run where the opacity is half (half_contour.h) instead of along sides of pixels
   double min_area = 0;  ///< square pixels; contours around less are noise of photographs: islands go, holes are filled
 };
 
@@ -39,8 +40,9 @@ struct ViewSilhouette {
   cv::Size image_size;               ///< empty for polygons
 };
 
-/// 255 where the image shows the object, 0 elsewhere, as the lens has it. The image may have 1, 3 or 4 channels of any
-/// depth: see ThresholdOptions. Throws InputError naming the view if the image cannot be read.
+/// 255 where the image shows the object, 0 elsewhere, as the lens has it; with `options.soft` an opacity (opacity.h)
+/// with this object. The image may have 1, 3 or 4 channels of any depth: see ThresholdOptions. Throws InputError naming
+/// the view if the image cannot be read.
 cv::Mat read_mask(const std::filesystem::path& image, const std::string& view, const SilhouetteOptions& options);
 
 /// The intrinsics as OpenCV wants them, whose whole image coordinates are centres of pixels: 3x3, double.
@@ -52,8 +54,12 @@ cv::Mat read_photograph(const std::filesystem::path& image, const Distortion& di
 /// The mask of an image that is loaded already. Throws InputError if it has no such channel.
 cv::Mat make_mask(const cv::Mat& image, const ThresholdOptions& options);
 
-/// Traces a mask, undoes the distortion of its lens on the contours (lens.h), and simplifies them. Throws InputError
-/// naming the view if nothing is set, or if the distortion cannot be undone.
+/// The opacity (opacity.h) of an image that is loaded already, half at the threshold, with the object of `make_mask`.
+/// Throws InputError if it has no such channel.
+cv::Mat make_opacity(const cv::Mat& image, const ThresholdOptions& options);
+
+/// Traces a mask (an opacity, with `options.soft`), undoes the distortion of its lens on the contours (lens.h), and
+/// simplifies them. Throws InputError naming the view if nothing is set, or if the distortion cannot be undone.
 ViewSilhouette silhouette_of_mask(const cv::Mat& mask, const Distortion& lens, const std::string& view,
                                   const SilhouetteOptions& options, const nef::Monitor& monitor = {});
 

@@ -48,7 +48,7 @@ nef::visual_hull::Matrix34 matrix_of(py::handle rows) {
 
 using Mask = py::array_t<std::uint8_t, py::array::c_style | py::array::forcecast>;
 
-// White where the mask is not 0.
+// Shades of grey.
 void write_mask(const Mask& mask, const std::string& path) {
   if (mask.ndim() != 2) throw InputError("a mask is an array of shape (H, W)");
   view::Image image;
@@ -56,7 +56,7 @@ void write_mask(const Mask& mask, const std::string& path) {
   image.width = static_cast<std::uint32_t>(mask.shape(1));
   image.rgb.reserve(3 * static_cast<std::size_t>(mask.size()));
   for (const std::uint8_t* pixel = mask.data(); pixel != mask.data() + mask.size(); ++pixel) {
-    image.rgb.insert(image.rgb.end(), 3, *pixel != 0 ? std::uint8_t{255} : std::uint8_t{0});
+    image.rgb.insert(image.rgb.end(), 3, *pixel);
   }
   write_file(path, view::png_bytes(image));
 }
@@ -169,6 +169,7 @@ nef::visual_hull::Options options_of(const py::dict& given) {
   const auto flag = [&given](const char* key) { return given[key].cast<bool>(); };
   options.silhouette.simplify = {given["tolerance"].cast<double>(), flag("outer")};
   options.silhouette.min_area = given["min_area"].cast<double>();
+  options.silhouette.soft = flag("soft");
   options.silhouette.border =
       flag("unknown_beyond") ? nef::visual_hull::Border::kUnknown : nef::visual_hull::Border::kOutside;
   if (flag("half_pixels")) options.origin = nef::visual_hull::PixelOrigin::kCorner;
@@ -351,7 +352,7 @@ cv::Mat mask_of(const Mask& mask) {
 
 // Without matrices the cameras are those of a turntable, to be found.
 py::dict refine(const std::vector<std::string>& names, const std::vector<Mask>& masks, const py::object& matrices,
-                bool half_pixels, unsigned threads) {
+                bool half_pixels, bool soft, unsigned threads) {
   std::vector<cv::Mat> images;
   std::vector<nef::visual_hull::Camera> cameras;
   for (std::size_t i = 0; i < masks.size(); ++i) {
@@ -367,6 +368,7 @@ py::dict refine(const std::vector<std::string>& names, const std::vector<Mask>& 
   const nef::visual_hull::refine::Refinement made = call(kSmallCall, [=](const Monitor& monitor) {
     nef::visual_hull::SilhouetteOptions silhouettes;
     if (half_pixels) silhouettes.origin = nef::visual_hull::PixelOrigin::kCorner;
+    silhouettes.soft = soft;
     std::vector<nef::visual_hull::ViewSilhouette> seen;
     for (std::size_t i = 0; i < images.size(); ++i) {
       seen.push_back(nef::visual_hull::silhouette_of_mask(images[i], {}, names[i], silhouettes, monitor));
@@ -385,16 +387,17 @@ py::dict refine(const std::vector<std::string>& names, const std::vector<Mask>& 
 }
 
 // (masks, qualities, what was chosen, notes)
-py::tuple masks(const std::vector<std::string>& photographs, const std::string& method, unsigned threads) {
+py::tuple masks(const std::vector<std::string>& photographs, const std::string& method, bool soft, unsigned threads) {
   const nef::visual_hull::CutOuts made = call(kSmallCall, [=](const Monitor& monitor) {
     const std::vector<std::filesystem::path> files(photographs.begin(), photographs.end());
-    return nef::visual_hull::cut_out(files, nef::visual_hull::parse_mask_method(method), monitor.on_threads(threads));
+    nef::visual_hull::MaskMethod parsed = nef::visual_hull::parse_mask_method(method);
+    parsed.soft = soft;
+    return nef::visual_hull::cut_out(files, parsed, monitor.on_threads(threads));
   });
   py::list arrays;
   for (const cv::Mat& mask : made.masks) {
-    py::array_t<bool> array({mask.rows, mask.cols});
-    std::transform(mask.begin<std::uint8_t>(), mask.end<std::uint8_t>(), array.mutable_data(),
-                   [](std::uint8_t pixel) { return pixel != 0; });
+    py::array_t<std::uint8_t> array({mask.rows, mask.cols});
+    std::copy(mask.begin<std::uint8_t>(), mask.end<std::uint8_t>(), array.mutable_data());
     arrays.append(array);
   }
   return py::make_tuple(arrays, made.quality, made.chosen, made.notes);

@@ -20,7 +20,7 @@ import sys
 PROGRAMS = ("printf", "cat", "mkdir", "cp", "nef", "minkowski", "visual_hull", "planner", "render_silhouettes",
             "build/release/bin/sum_peer")
 # Commands of tutorials that need more than the programs: run only if the document is named on the command line.
-BUILDERS = ("cmake", "./build/bracket", "./build/plan")
+BUILDERS = ("cmake", "./build/bracket", "./build/part", "./build/plan")
 TITLE = re.compile(r'title="([\w.]+)"')
 DOCUMENTS = ("README.md", "docs", "apps/planner/README.md")
 PLACEHOLDER = re.compile(r"(?:^|[\s|=])(?:[A-Z][A-Z_]*\d?(?:\.[a-z]+)?|\.\.\.)(?=$|[\s|\]])|[\[\]]")

@@ -12,6 +12,7 @@
 #include <iostream>
 #include <new>
 #include <regex>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -20,6 +21,7 @@
 #include "apps/program/numbers.h"
 #include "apps/program/stack.h"
 #include "nef/base/error.h"
+#include "nef/base/word_list.h"
 #include "nef/number/memory.h"
 
 namespace nef {
@@ -139,23 +141,25 @@ std::string unexpected(const CLI::App& app, const std::string& word) {
 
 // What CLI11 says, in other words.
 std::string in_plain_words(const std::string& what) {
-  static const std::array<std::pair<std::regex, const char*>, 7> kPhrases{{
+  static const std::regex one_of(R"((.*): (.*) not in \{(.*)\})");
+  static const std::array<std::pair<std::regex, const char*>, 6> phrases{{
       {std::regex(R"((.*): Value (.*) not in range (-?\d+(?:\.\d*[1-9])?)\.?0* to (-?\d+(?:\.\d*[1-9])?)\.?0*)"),
        "$1: expected a number from $3 to $4, not '$2'"},
-      {std::regex(R"((.*): (.*) not in \{(.*)\})"), "$1: '$2' is none of $3"},
       {std::regex(R"((.*): At least (\d+) required but received (\d+))"), "give at least $2 $1, not $3"},
       {std::regex(R"((.*): At Most (\d+) required but received (\d+))"), "give at most $2 $1, not $3"},
-      {std::regex(R"((.*): \d+ required (\S+) missing)"), "$1 needs a value: $2"},
+      {std::regex(R"((.*): \d+ required ([^: ]+).* missing)"), "$1 needs a value: $2"},
       {std::regex(R"(Could not convert: (.*) = (.*))"), "$1: '$2' is not a number"},
       {std::regex("A subcommand is required"), "name a subcommand"},
   }};
-  for (const auto& [phrase, words] : kPhrases) {
-    std::smatch match;
-    if (!std::regex_match(what, match, phrase)) continue;
-    const std::string result = match.format(words);
-    const std::size_t list = result.find("' is none of ");
-    if (list == std::string::npos) return result;
-    return result.substr(0, list) + std::regex_replace(result.substr(list), std::regex(","), ", ");
+  std::smatch match;
+  if (std::regex_match(what, match, one_of)) {
+    std::istringstream list(match[3]);
+    std::vector<std::string> words;
+    for (std::string word; std::getline(list, word, ',');) words.push_back(word);
+    return match[1].str() + ": expected " + word_list(words, "or") + ", not '" + match[2].str() + "'";
+  }
+  for (const auto& [phrase, words] : phrases) {
+    if (std::regex_match(what, match, phrase)) return match.format(words);
   }
   return what;
 }

@@ -62,7 +62,7 @@ TEST_CASE("usage errors are one line and exit code 2") {
                 "there is no option '--threads' before the subcommand; write it behind 'info'");
   check_refused(here.nef("info a.off --threads x"), "--threads: expected a number from 0 to 4096, not 'x'");
   check_refused(here.nef("equal a.off"), "give at least 2 inputs, not 1");
-  check_refused(here.nef("subdivide a.off -o b.off --scheme fast"), "--scheme: 'fast' is none of midpoint, loop");
+  check_refused(here.nef("subdivide a.off -o b.off --scheme fast"), "--scheme: expected midpoint or loop, not 'fast'");
   check_refused(here.nef("subdivide a.off -o b.off --times"), "--times needs a value: UINT");
   check_refused(here.nef("complement a.off 1 2 -o b.off"),
                 "unexpected argument '1'; several numbers are one word with commas");

@@ -107,7 +107,7 @@ void run_picture(Session& session, const PictureFlags& flags) {
     scene.section = {numbers[0], numbers[1], numbers[2], numbers[3]};
   }
   if (!flags.from.empty()) {
-    const Rational3 from = parse_triple(flags.from, "--from");
+    const Rational3 from = parse_triple(flags.from, "--from x,y,z");
     picture.from = {nearest_double(from[0]), nearest_double(from[1]), nearest_double(from[2])};
   } else if (scene.section && ((*scene.section)[0] != 0 || (*scene.section)[1] != 0 || (*scene.section)[2] != 0)) {
     picture.from = towards_section(*scene.section);

@@ -22,7 +22,7 @@ install(DIRECTORY data/ DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/nef-programs/da
 set(about_nef_command "exact Boolean and other operations on Nef polyhedra")
 set(about_visual_hull "exact visual hulls from calibrated silhouettes")
 set(about_minkowski "exact Minkowski sums, offsets and hulls of polyhedral sets")
-set(about_planner "exact motion planning for translating robots")
+set(about_planner "exact motion planning: paths, or proofs that there is none")
 set(about_nef_mpi "exact unions, Minkowski sums and visual hulls on many ranks")
 find_program(HELP2MAN help2man)
 find_program(NEF_PYTHON3 python3)

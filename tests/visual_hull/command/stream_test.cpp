@@ -28,6 +28,17 @@ using testing::Outcome;
 using testing::run;
 using testing::Scratch;
 
+// The example in stream.h, as it is printed there (tests/docs/check_snippets.py compares them).
+struct Camera {
+  bool grab(std::vector<cv::Mat>& masks) const { return left > masks.size(); }
+  std::size_t left = 0;
+};
+[[maybe_unused]] void example(const nef::visual_hull::Options& options, const Camera& camera,
+                              std::vector<cv::Mat>& masks) {
+  const nef::visual_hull::HullStream stream(nef::visual_hull::read_scene("rig.json"), options);
+  while (camera.grab(masks)) nef::Mesh mesh = nef::to_mesh(stream.frame(masks).hull);
+}
+
 fs::path elk() { return fs::path(source_folder()) / "data/visual_hull/elk"; }
 
 // Frame k of a film: the elk's masks without the pixels of the first 8 k columns.

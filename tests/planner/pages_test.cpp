@@ -49,7 +49,7 @@ TEST_CASE("the page on rigid motions: exact checks in a setup of OMPL") {
 
 TEST_CASE("the page on rigid motions: a linkage") {
   const nef::Polyhedron arm = nef::make_box({0, 0, 0}, {3, 1, 1});
-  const auto obstacles = nef::planner::RigidBody::of_set(nef::make_box({0, 2, 0}, {1, 3, 1}));
+  const auto obstacles = nef::planner::RigidBody::of_set(nef::make_box({0, 2, 0}, {1, 3, 3}));
   ompl::geometric::SimpleSetup setup(std::make_shared<ompl::base::RealVectorStateSpace>(1));
   const auto si = setup.getSpaceInformation();
   nef::planner::Linkage robot;  // link 0 is the base, which stays
@@ -59,8 +59,10 @@ TEST_CASE("the page on rigid motions: a linkage") {
   const auto checker = std::make_shared<const nef::planner::LinkageChecker>(robot, obstacles);
   setup.setStateValidityChecker(std::make_shared<nef::planner::LinkageStateValidityChecker>(si, checker));
   si->setMotionValidator(std::make_shared<nef::planner::LinkageMotionValidator>(si, checker));
-  CHECK(checker->check({0.0}).status == nef::planner::MotionVerdict::Status::kFree);
-  CHECK(checker->check({0.0}, {1.5}).status == nef::planner::MotionVerdict::Status::kCollides);
+  const std::vector<double> at_rest{0};
+  const std::vector<double> turned{1.5};
+  CHECK(checker->check(at_rest).status == nef::planner::MotionVerdict::Status::kFree);
+  CHECK(checker->check(at_rest, turned).status == nef::planner::MotionVerdict::Status::kCollides);
 }
 
 namespace {
@@ -70,7 +72,8 @@ namespace {
   const nef::planner::UrdfRobot crane =
       nef::planner::read_urdf("data/planner/linkage/crane.urdf", "data/planner/linkage/crane.srdf");
   const nef::planner::LinkageChecker checker(crane.linkage(), obstacles);
-  return checker.check({0.0, 0.0, 0.0}).status == nef::planner::MotionVerdict::Status::kFree;
+  const std::vector<double> at_rest(3, 0.0);
+  return checker.check(at_rest).status == nef::planner::MotionVerdict::Status::kFree;
 }
 
 }  // namespace

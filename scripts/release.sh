@@ -50,9 +50,11 @@ cp "$work"/packages/*.deb "$out"
 python=$(sed -n 's/^NEF_PYTHON_EXECUTABLE:INTERNAL=//p' "$tree/CMakeCache.txt")
 NEF_BUILD_TREE=$tree "$python" -m pip wheel -q --no-build-isolation --no-deps -w "$out" .
 
-# What was packed works where it is unpacked, and its pages link to what is there.
+# What was packed works where it is unpacked: the tutorials run with it, and its pages link to what is there.
 for package in "$out"/*.deb; do dpkg-deb -x "$package" "$work/unpacked"; done
 "$work/unpacked/usr/bin/nef" eval 'box(0,0,0, 2,2,2) - box(1,1,1, 3,3,3)' --json >/dev/null
+NEF_PREFIX=$work/unpacked/usr python3 tests/docs/run_commands.py "$PWD" "$work/unpacked/usr/bin" "$work/tutorials" \
+  "$PWD"/docs/tutorials/*.md | tail -20
 for folder in nef-programs libnef-dev; do python3 scripts/check_sources.py "$work/unpacked/usr/share/doc/$folder"; done
 "$python" -m pip install -q --no-deps --no-index --target "$work/installed" "$out"/*.whl
 (cd "$work" && PYTHONPATH=$work/installed "$python" -c 'import nef; print("wheel:", nef.__version__, nef.box((0, 0, 0), (1, 1, 1)).volume())')

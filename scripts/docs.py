@@ -14,7 +14,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Pages outside of docs/, and their names in the site.
 MOVED = {"README.md": "index.md", "CONTRIBUTING.md": "CONTRIBUTING.md", "CHANGELOG.md": "CHANGELOG.md", "bench/README.md": "bench.md",
-         "data/README.md": "data.md", "apps/planner/README.md": "planner_examples.md",
+         "data/README.md": "data.md", "packaging/README.md": "packages.md", "apps/planner/README.md": "planner_examples.md",
          **{f"bench/results/{path.name}": f"results/{path.name}" for path in sorted((ROOT / "bench" / "results").glob("*.md"))}}
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([\w./-]+)(#[\w-]*)?\)")
 FENCE = re.compile(r"(^```.*?^```)", re.MULTILINE | re.DOTALL)

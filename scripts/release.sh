@@ -2,14 +2,17 @@
 # Makes a release: builds and tests a clean clone, packs sources, Debian packages and a wheel, and writes notes and checksums
 # into release/VERSION. Publishes nothing; the last line says which tag to set.
 #
-# Usage: scripts/release.sh [--untested]: the second skips the tests, to try the packing.
+# Usage: scripts/release.sh [--untested [TREE]]: --untested skips the tests, to try the packing; TREE is a build folder of this
+# checkout, built already, whose programs are packed instead of those of the clone, to try it in two minutes.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 root=$PWD
-if [ $# -gt 1 ] || { [ $# -eq 1 ] && [ "$1" != --untested ]; }; then
-  echo "usage: scripts/release.sh [--untested]" >&2
+if [ $# -gt 2 ] || { [ $# -ge 1 ] && [ "$1" != --untested ]; }; then
+  echo "usage: scripts/release.sh [--untested [TREE]]" >&2
   exit 2
 fi
+tree=
+if [ $# -eq 2 ]; then tree=$(realpath -e "$2"); fi
 version=$(sed -n 's/^#define NEF_VERSION "\(.*\)"$/\1/p' nef/version.h)
 
 if [ -n "$(git status --porcelain)" ]; then
@@ -33,19 +36,25 @@ trap 'rm -rf "$work"' EXIT
 git clone -q . "$work/nef"
 cd "$work/nef"
 python3 scripts/check_sources.py
+python3 scripts/check_recipes.py
 if [ "${1:-}" != --untested ]; then bash scripts/test.sh; fi
 
-cmake --preset release -DNEF_COMPILE_TOGETHER=ON -DNEF_BUILD_TESTS=OFF -DNEF_BUILD_BENCH=OFF >/dev/null
-cmake --build --preset release
-cpack -G DEB --config build/release/CPackConfig.cmake -B "$work/packages" >/dev/null
+if [ -z "$tree" ]; then
+  tree=$PWD/build/release
+  cmake --preset release -DNEF_COMPILE_TOGETHER=ON -DNEF_BUILD_TESTS=OFF -DNEF_BUILD_BENCH=OFF >/dev/null
+  cmake --build --preset release
+fi
+cpack -G DEB --config "$tree/CPackConfig.cmake" -B "$work/packages" >/dev/null
 cp "$work"/packages/*.deb "$out"
 # The interpreter that the package is built for, whichever comes first on the PATH.
-python=$(sed -n 's/^NEF_PYTHON_EXECUTABLE:INTERNAL=//p' build/release/CMakeCache.txt)
-NEF_BUILD_TREE=$PWD/build/release "$python" -m pip wheel -q --no-build-isolation --no-deps -w "$out" .
+python=$(sed -n 's/^NEF_PYTHON_EXECUTABLE:INTERNAL=//p' "$tree/CMakeCache.txt")
+NEF_BUILD_TREE=$tree "$python" -m pip wheel -q --no-build-isolation --no-deps -w "$out" .
 
-# What was packed works where it is unpacked, and its pages link to what is there.
+# What was packed works where it is unpacked: the tutorials run with it, and its pages link to what is there.
 for package in "$out"/*.deb; do dpkg-deb -x "$package" "$work/unpacked"; done
 "$work/unpacked/usr/bin/nef" eval 'box(0,0,0, 2,2,2) - box(1,1,1, 3,3,3)' --json >/dev/null
+NEF_PREFIX=$work/unpacked/usr python3 tests/docs/run_commands.py "$PWD" "$work/unpacked/usr/bin" "$work/tutorials" \
+  "$PWD"/docs/tutorials/*.md | tail -20
 for folder in nef-programs libnef-dev; do python3 scripts/check_sources.py "$work/unpacked/usr/share/doc/$folder"; done
 "$python" -m pip install -q --no-deps --no-index --target "$work/installed" "$out"/*.whl
 (cd "$work" && PYTHONPATH=$work/installed "$python" -c 'import nef; print("wheel:", nef.__version__, nef.box((0, 0, 0), (1, 1, 1)).volume())')
@@ -55,5 +64,6 @@ printf '%s\n' "$notes" >"$out/NOTES.md"
 cd "$out"
 files=(*.deb *.whl *.tar.gz NOTES.md)
 sha256sum "${files[@]}" >SHA256SUMS
+sha256sum --quiet -c SHA256SUMS
 ls -l
 echo "release/$version is made of $(git -C "$root" rev-parse --short HEAD); tag it: git tag -a v$version -F release/$version/NOTES.md"

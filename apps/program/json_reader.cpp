@@ -2,6 +2,7 @@
 #include "apps/program/json_reader.h"
 
 #include "apps/program/exact_json.h"
+#include "apps/program/nearest_word.h"
 #include "nef/base/error.h"
 #include "nef/base/in_quotes.h"
 #include "nef/base/word_list.h"
@@ -19,7 +20,9 @@ void JsonReader::require_keys(const std::vector<const char*>& required,
     if (std::any_of(optional.begin(), optional.end(), is_it)) continue;
     std::vector<const char*> known = required;
     known.insert(known.end(), optional.begin(), optional.end());
-    fail("unknown key " + in_quotes(item.key()) + " (known: " + word_list(known, "and") + ")");
+    const std::string nearest = did_you_mean(item.key(), {known.begin(), known.end()});
+    fail("unknown key " + in_quotes(item.key()) +
+         (nearest.empty() ? " (known: " + word_list(known, "and") + ")" : nearest));
   }
   for (const char* key : required) {
     if (!value_.contains(key)) fail("'" + std::string(key) + "' is missing");

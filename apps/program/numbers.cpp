@@ -4,6 +4,7 @@
 #include <cctype>
 #include <sstream>
 
+#include "nef/base/counted.h"
 #include "nef/base/error.h"
 
 namespace nef {
@@ -40,8 +41,8 @@ std::vector<Rational> parse_numbers(std::string_view text, const std::string& wh
 std::vector<Rational> parse_numbers(std::string_view text, std::size_t count, const std::string& what) {
   std::vector<Rational> numbers = parse_numbers(text, what);
   if (numbers.size() != count) {
-    throw InputError(what + ": '" + std::string(text) + "' has " + std::to_string(numbers.size()) + " numbers, not " +
-                     std::to_string(count) + " (separate them by commas)");
+    throw InputError(what + ": expected " + counted(count, "number", "numbers") +
+                     ", separated by commas, instead of '" + std::string(text) + "'");
   }
   return numbers;
 }

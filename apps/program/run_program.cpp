@@ -3,20 +3,25 @@
 // The frame of all programs: what a command line lacks, what an exception says, and the exit code.
 //
 // A word that is no subcommand or option is looked up among the names that other programs use, then among those that
-// are spelled almost alike. Every error becomes one line on standard error.
+// are spelled almost alike. What CLI11 says is put into the words of the other messages. Every error becomes one line
+// on standard error.
 #include "apps/program/run_program.h"
 
 #include <algorithm>
 #include <array>
 #include <iostream>
 #include <new>
+#include <regex>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "apps/program/nearest_word.h"
+#include "apps/program/numbers.h"
 #include "apps/program/stack.h"
 #include "nef/base/error.h"
+#include "nef/base/word_list.h"
 #include "nef/number/memory.h"
 
 namespace nef {
@@ -116,6 +121,49 @@ std::string taken_for_value(const CLI::App& app) {
   return "";
 }
 
+// An option of no subcommand: misspelt, or before the subcommand that it belongs to.
+std::string unknown_option(const CLI::App& app, const std::string& word) {
+  const std::vector<std::string> options = option_names(app);
+  const std::string name = word.substr(0, word.find('='));
+  const std::string what = "there is no option '" + word + "'";
+  if (std::find(options.begin(), options.end(), name) == options.end()) return what + did_you_mean(name, options);
+  return what + " before the subcommand; write it behind '" + app.get_subcommands().front()->get_name() + "'";
+}
+
+// An argument that nothing takes. Numbers in a row are one value that was written in several words.
+std::string unexpected(const CLI::App& app, const std::string& word) {
+  const std::string what = "unexpected argument '" + word + "'";
+  if (try_parse_rational(word)) return what + "; several numbers are one word with commas, 1,2,3";
+  const std::vector<std::string> options = option_names(app);
+  const bool writes = std::find(options.begin(), options.end(), "--output") != options.end();
+  return what + (writes ? "; an output file is named with -o" : "");
+}
+
+// What CLI11 says, in other words.
+std::string in_plain_words(const std::string& what) {
+  static const std::regex one_of(R"((.*): (.*) not in \{(.*)\})");
+  static const std::array<std::pair<std::regex, const char*>, 6> phrases{{
+      {std::regex(R"((.*): Value (.*) not in range (-?\d+(?:\.\d*[1-9])?)\.?0* to (-?\d+(?:\.\d*[1-9])?)\.?0*)"),
+       "$1: expected a number from $3 to $4, not '$2'"},
+      {std::regex(R"((.*): At least (\d+) required but received (\d+))"), "give at least $2 $1, not $3"},
+      {std::regex(R"((.*): At Most (\d+) required but received (\d+))"), "give at most $2 $1, not $3"},
+      {std::regex(R"((.*): \d+ required ([^: ]+).* missing)"), "$1 needs a value: $2"},
+      {std::regex(R"(Could not convert: (.*) = (.*))"), "$1: '$2' is not a number"},
+      {std::regex("A subcommand is required"), "name a subcommand"},
+  }};
+  std::smatch match;
+  if (std::regex_match(what, match, one_of)) {
+    std::istringstream list(match[3]);
+    std::vector<std::string> words;
+    for (std::string word; std::getline(list, word, ',');) words.push_back(word);
+    return match[1].str() + ": expected " + word_list(words, "or") + ", not '" + match[2].str() + "'";
+  }
+  for (const auto& [phrase, words] : phrases) {
+    if (std::regex_match(what, match, phrase)) return match.format(words);
+  }
+  return what;
+}
+
 // What is wrong with a command line. An option that does not exist comes first: what is missing beside it may be what
 // it was meant for.
 std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
@@ -130,17 +178,14 @@ std::string usage_error(const CLI::App& app, const CLI::ParseError& error) {
     // After "--" nothing is an option.
     if (word == "--") break;
     if (word.size() < 2 || word.front() != '-') continue;
-    return "there is no option '" + word + "'" + did_you_mean(word.substr(0, word.find('=')), option_names(app));
+    return unknown_option(app, word);
   }
   const bool is_extra = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
   const bool is_missing = dynamic_cast<const CLI::RequiredError*>(&error) != nullptr;
   if (!left.empty() && (is_extra || is_missing)) {
-    const std::vector<std::string> options = option_names(app);
-    const bool writes = std::find(options.begin(), options.end(), "--output") != options.end();
-    return (is_missing ? missing_option(app, error) + "; " : "") + "unexpected argument '" + left.front() + "'" +
-           (writes ? "; an output file is named with -o" : "");
+    return (is_missing ? missing_option(app, error) + "; " : "") + unexpected(app, left.front());
   }
-  return is_missing ? missing_option(app, error) : error.what();
+  return in_plain_words(is_missing ? missing_option(app, error) : error.what());
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 // Video: the hulls of one rig of cameras, frame after frame.
 //
 //   const nef::visual_hull::HullStream stream(nef::visual_hull::read_scene("rig.json"), options);
-//   while (camera.grab(masks)) nef::Mesh mesh = nef::to_mesh(stream.frame(masks).hull);
+//   while (camera.grab(masks)) nef::Mesh mesh = nef::to_mesh(stream.frame(masks).hull).mesh;
 #pragma once
 
 #include <filesystem>

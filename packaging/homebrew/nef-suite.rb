@@ -27,6 +27,7 @@ class NefSuite < Formula
   depends_on "open-mesh"
   depends_on "opencv"
   depends_on "tbb"
+  depends_on "zlib"
 
   def install
     args = %w[-DNEF_BUILD_TESTS=OFF -DNEF_BUILD_BENCH=OFF -DNEF_BUILD_PYTHON=OFF -DNEF_COMPILE_TOGETHER=ON]

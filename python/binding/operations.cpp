@@ -38,6 +38,16 @@ AffineMap map_from(py::handle matrix) {
 
 namespace {
 
+// "z" or three numbers.
+Rational3 axis_from(py::handle axis) {
+  if (!PyUnicode_Check(axis.ptr())) return to_triple(axis, "an axis");
+  const auto name = py::cast<std::string>(axis);
+  if (name == "x") return {1, 0, 0};
+  if (name == "y") return {0, 1, 0};
+  if (name == "z") return {0, 0, 1};
+  throw InputError("an axis is 'x', 'y', 'z' or three numbers, such as (0, 0, 1), not '" + name + "'");
+}
+
 using Unary = Polyhedron (*)(const Polyhedron&, const Monitor&);
 using Binary = Polyhedron (*)(const Polyhedron&, const Polyhedron&, const Monitor&);
 
@@ -160,13 +170,13 @@ Fractions as from floats. Raises InputError if the map is not invertible.)")
       .def(
           "rotate",
           [](const Polyhedron& a, py::handle axis, double degrees, double tolerance) {
-            return transformed(a, AffineMap::rotate(to_triple(axis, "an axis"), degrees, tolerance));
+            return transformed(a, AffineMap::rotate(axis_from(axis), degrees, tolerance));
           },
           py::arg("axis"), py::arg("degrees"), py::arg("tolerance") = 1e-9,
           R"(The set turned about an axis through the origin, counterclockwise as seen from the tip of the axis.
 
-axis: three numbers, such as (0, 0, 1) for z. degrees: the angle. The map is exactly orthogonal and
-rational; its angle is within `tolerance` degrees of the one given.)")
+axis: 'x', 'y', 'z' or three numbers. degrees: the angle. The map is exactly orthogonal and
+rational; its angle is within `tolerance` degrees of the one given, and exact for multiples of 90 about x, y and z.)")
       .def("split", &parts, py::arg("by") = "components", py::arg("above") = py::none(),
            R"(The pieces of the set, a list of Polyhedron.
 

@@ -11,8 +11,10 @@ namespace nef::python {
 namespace {
 
 std::vector<view::Layer> layers_of(const std::vector<Polyhedron>& sets, const std::vector<std::string>& names,
-                                   bool indices, const Monitor& monitor) {
+                                   bool indices, const Monitor& monitor,
+                                   const std::optional<std::array<Rational, 4>>& section = {}) {
   view::SceneOptions options;
+  options.section = section;
   options.box = view::visible_box(sets);
   options.indices = indices;
   std::vector<view::Layer> layers;
@@ -25,12 +27,24 @@ std::vector<view::Layer> layers_of(const std::vector<Polyhedron>& sets, const st
   return layers;
 }
 
-py::bytes picture(const std::vector<Polyhedron>& sets, std::uint32_t width, std::uint32_t height) {
+py::bytes picture(const std::vector<Polyhedron>& sets, std::uint32_t width, std::uint32_t height, py::handle direction,
+                  py::handle section) {
+  view::PictureOptions options;
+  options.width = width;
+  options.height = height;
+  if (!direction.is_none()) {
+    const Rational3 from = to_triple(direction, "a direction");
+    options.from = {nearest_double(from[0]), nearest_double(from[1]), nearest_double(from[2])};
+  }
+  std::optional<std::array<Rational, 4>> plane;
+  if (!section.is_none()) {
+    std::vector<Rational> numbers;
+    for (const py::handle number : to_items(section, "a section")) numbers.push_back(to_rational(number));
+    if (numbers.size() != 4) throw InputError("a section needs four numbers a, b, c, d, as in (0, 0, 1, -2)");
+    plane = {numbers[0], numbers[1], numbers[2], numbers[3]};
+  }
   return call(items(sets), [=](const Monitor& monitor) {
-    view::PictureOptions options;
-    options.width = width;
-    options.height = height;
-    return view::png_bytes(view::draw_picture(layers_of(sets, {}, false, monitor), options));
+    return view::png_bytes(view::draw_picture(layers_of(sets, {}, false, monitor, plane), options));
   });
 }
 
@@ -47,7 +61,8 @@ void write_page(const std::vector<Polyhedron>& sets, const std::vector<std::stri
 }  // namespace
 
 void bind_view(py::module_& m) {
-  m.def("_picture", &picture, py::arg("sets"), py::arg("width"), py::arg("height"));
+  m.def("_picture", &picture, py::arg("sets"), py::arg("width"), py::arg("height"), py::arg("direction"),
+        py::arg("section"));
   m.def("_write_page", &write_page, py::arg("sets"), py::arg("names"), py::arg("path"), py::arg("title"));
   m.def("_has_pages", &view::has_viewer_bundle);
 }

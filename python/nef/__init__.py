@@ -75,6 +75,14 @@ def _nearest(name, names):
     return f"; did you mean {near[0]!r}?" if near else ""
 
 
+def _of_application(module, names, hints):
+    """The __getattr__ of an application: what other names its functions may be looked for by."""
+    def missing(name):
+        hint = f"; use {hints[name]}" if name in hints else _nearest(name, names)
+        raise AttributeError(f"module {module!r} has no attribute {name!r}{hint}")
+    return missing
+
+
 def __getattr__(name):
     if name not in _APPLICATIONS:
         hint = f"; use {_OF_MODULE[name]}" if name in _OF_MODULE else _nearest(name, __all__)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Sets in notebooks, and as pages in a browser."""
 import os
-from typing import Optional, Sequence, Union
+from typing import Any, Optional, Sequence, Union
 
 from . import _nef
 from ._nef import Polyhedron
@@ -42,9 +42,14 @@ def page(*sets: Polyhedron, names: Optional[Sequence[str]] = None, title: str = 
             return file.read()
 
 
-def picture(*sets: Polyhedron, width: int = 640, height: int = 480) -> bytes:
-    """A picture of some sets: the bytes of a PNG."""
-    return _nef._picture(_checked(sets), width, height)
+def picture(*sets: Polyhedron, width: int = 640, height: int = 480, direction: Optional[Sequence[Any]] = None,
+            section: Optional[Sequence[Any]] = None) -> bytes:
+    """A picture of some sets: the bytes of a PNG.
+
+    - direction: three numbers, from the middle of the sets to the eye; from the right, the front and above if None
+    - section: four numbers a, b, c, d: only what has a x + b y + c z + d <= 0 is shown, cut exactly
+    """
+    return _nef._picture(_checked(sets), width, height, direction, section)
 
 
 def show(*sets: Polyhedron, names: Optional[Sequence[str]] = None, title: str = "nef",

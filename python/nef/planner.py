@@ -19,7 +19,7 @@ from typing import Any, Callable, List, NamedTuple, Optional, Sequence, Tuple, U
 
 import numpy
 
-from . import _planner
+from . import _of_application, _planner
 from ._nef import Polyhedron
 from .assemblies import (Disassembly, DisassemblyStep, FreeDirections, Inseparable, Undecided, disassemble, free_directions,
                          prove_inseparable, complaint_about_inseparable)
@@ -34,6 +34,8 @@ __all__ = ["Cell", "CertifiedLinkagePath", "CertifiedPath", "CheckedMotion", "Co
            "PartVerdict", "Plan", "Proof", "RangeEnd", "RangePart", "Rotation", "Scene", "Screw", "Slider", "Stop", "Thinness",
            "TightPassage", "TurningProof", "Undecided", "Verdict", "Widest", "complaint_about_inseparable", "disassemble",
            "free_directions", "prove_inseparable", "range_of_motion", "read", "reads_urdf", "verdict"]
+
+__getattr__ = _of_application(__name__, __all__, {"plan": "Scene(robot, obstacles).plan(start, goal)", "certify": "Scene(robot, obstacles).certify(path)", "prove": "Scene(robot, obstacles).prove()"})
 
 
 class Cell(NamedTuple):
@@ -247,8 +249,7 @@ class Scene:
         if isinstance(contact, str):
             raise TypeError(f"contact must be True (allow) or False (forbid), not {contact!r}")
         if isinstance(rotation, str) and rotation != "SO(3)":
-            raise TypeError(f"rotation must be 'SO(3)' or a Rotation, such as Rotation({rotation!r}, 0, 360), "
-                            f"not {rotation!r}")
+            raise TypeError(f"rotation must be 'SO(3)' or a Rotation, such as Rotation('z', 0, 360), not {rotation!r}")
         obstacles = list(obstacles)
         if names is None:
             names = [f"obstacle {i}" for i in range(len(obstacles))]

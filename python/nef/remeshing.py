@@ -11,12 +11,14 @@ from typing import Any, NamedTuple, Tuple
 
 import numpy
 
-from . import _remeshing
+from . import _of_application, _remeshing
 from ._nef import Polyhedron
 from .errors import InputError
 from .meshes import _vertices_and_faces
 
 __all__ = ["Decimated", "decimate", "subdivide"]
+
+__getattr__ = _of_application(__name__, __all__, {"simplify": "decimate", "reduce": "decimate", "refine": "subdivide"})
 
 
 class Decimated(NamedTuple):

@@ -11,7 +11,7 @@ from typing import Any, Callable, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy
 
-from . import _visual_hull
+from . import _of_application, _visual_hull
 from ._nef import Polyhedron
 from .errors import InputError, InputWarning
 
@@ -22,6 +22,8 @@ USUAL_BOARD = "charuco:7x5,30mm,22mm,DICT_5X5"
 
 __all__ = ["CalibratedView", "Calibration", "Combination", "Hull", "Masks", "PlacedSeries", "RefinedView", "Refinement", "Texture",
            "USUAL_BOARD", "View", "board", "calibrate", "combine", "compute", "masks", "read", "refine"]
+
+__getattr__ = _of_application(__name__, __all__, {"visual_hull": "compute", "hull": "compute", "load": "read"})
 
 
 class View(NamedTuple):
@@ -169,6 +171,8 @@ def compute(masks: Sequence[Any], cameras: Sequence[Any], names: Optional[Sequen
     Raises InputError, whose `view` is the name of the view at fault, for an empty mask or a matrix that is not a camera.
     """
     masks = [_mask(mask) for mask in masks]
+    if not masks:
+        raise InputError("there are no masks: one array of shape (H, W) for each camera is needed")
     cameras = [numpy.asarray(camera).tolist() for camera in cameras]
     names = [f"view {i}" for i in range(len(masks))] if names is None else [str(name) for name in names]
     if not len(masks) == len(cameras) == len(names):

@@ -5,7 +5,7 @@
     check.py FILE [--claim SHA256]
 
 Prints what is proved and the SHA-256 of the claim, and exits with 0; with 1 if the proof does not hold, or if --claim
-names another claim; with 2 if the file cannot be read. docs/proofs.md says what a claim means and why this proves it.
+names another claim; with 2 if the file cannot be read. docs/proofs.md says what a claim means, docs/how/proofs.md why this proves it.
 """
 import argparse
 import collections

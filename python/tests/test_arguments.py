@@ -67,8 +67,12 @@ def test_several_overloads():
     assert complaint(text, (1.5,), {}) == "f() takes none of these values: 1.5 (float); it is f(a) or f(text, sep=', ')"
 
 
-def test_misspelt_names_get_a_suggestion():
+def test_misspelt_names_get_a_suggestion(needs):
     with pytest.raises(AttributeError, match="no attribute 'half_space'; did you mean 'halfspace'"):
         nef.half_space
+    for module, name, hint in (("minkowski", "summ", "did you mean 'sum'"), ("minkowski", "close", "use closing"), ("planner", "plan", r"use Scene\(robot, obstacles\).plan"),
+                               ("visual_hull", "hull", "use compute"), ("remeshing", "decimte", "did you mean 'decimate'")):
+        with pytest.raises(AttributeError, match=f"module 'nef.{module}' has no attribute '{name}'; {hint}"):
+            getattr(needs(module), name)
     with pytest.raises(AttributeError, match="no attribute 'volum'; did you mean 'volume'"):
         CUBE.volum

@@ -49,7 +49,7 @@ def test_docstrings(name, needs):
     assert tried > 0 and failed == 0
 
 
-@pytest.mark.parametrize("page", ["docs/tutorials/python.md", "README.md"])
+@pytest.mark.parametrize("page", ["docs/tutorials/python.md", "docs/python.md", "docs/labels.md", "README.md"])
 def test_pages(page, needs, tmp_path, monkeypatch):
     needs("minkowski")
     needs("planner")

@@ -59,8 +59,8 @@ NEF = {
     "--largest": "nef.Polyhedron.largest_piece()",
     "--file": "read the text of the file, for nef.eval",
     "--steps": "the operators of nef.TiledPolyhedron, one after the other",
-    "--from": "pages of nef.show are turned and cut by hand",
-    "--section": "pages of nef.show are turned and cut by hand",
+    "--from": "nef.notebook.picture(direction)",
+    "--section": "nef.notebook.picture(section)",
     "--size": "nef.notebook.picture(width)",
 }
 PROGRAMS = {

@@ -127,6 +127,9 @@ def test_transformations():
     assert a.scale(2) == nef.box((0, 0, 0), (2, 4, 6)) and a.scale((1, 1, third)) == nef.box((0, 0, 0), (1, 2, 1))
     turned = a.rotate((0, 0, 1), 90)
     assert turned == nef.box((-2, 0, 0), (0, 1, 3))
+    assert a.rotate("z", 90) == turned and a.rotate("x", -180).bounding_box() == a.rotate((1, 0, 0), 180).bounding_box()
+    with pytest.raises(nef.InputError, match="an axis is 'x', 'y', 'z' or three numbers, .* not 'w'"):
+        a.rotate("w", 90)
     assert a.rotate((1, 2, 2), 33).volume() == 6
     for matrix in ([[1, 2, 3]], [[1, 0, 0]] * 3, [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [1, 0, 0, 1]], 3):
         with pytest.raises((ValueError, TypeError)):

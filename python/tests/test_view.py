@@ -21,6 +21,11 @@ def size_of(png):
 def test_pictures():
     assert size_of(BOX._repr_png_()) == (640, 480)
     assert size_of(notebook.picture(BOX, BOX.translate((5, 0, 0)), width=200, height=100)) == (200, 100)
+    pictures = [notebook.picture(BOX), notebook.picture(BOX, direction=(1, 1, "1/2")), notebook.picture(BOX, section=(0, 0, 1, "-1/2"))]
+    assert len(set(pictures)) == 3
+    for wrong in (dict(direction="top"), dict(section=(0, 0, 1))):
+        with pytest.raises(nef.InputError):
+            notebook.picture(BOX, **wrong)
     for odd in (nef.empty(), nef.everything(), nef.halfspace(1, 2, 3, 4), nef.point((1, 2, 3))):
         size_of(odd._repr_png_())
 

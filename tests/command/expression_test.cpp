@@ -193,6 +193,10 @@ TEST_CASE("errors give the column and what was expected") {
   CHECK(refusal("cube(1)") == "column 1: there is no set or function 'cube'; a cube is box(0,0,0, 1,1,1)");
   CHECK(refusal("spere(1)") == "column 1: there is no set or function 'spere'; did you mean 'sphere'?");
   CHECK(refusal("a.off + b.off") == "column 1: there is no set or function 'a'; a file is named by file(\"part.off\")");
+  CHECK(refusal("models/a.off") ==
+        "column 1: there is no set or function 'models'; a file is named by file(\"part.off\")");
+  CHECK(refusal("rotate(z, 90, nothing)") ==
+        "column 8: there is no set or function 'z'; the set comes first, as in rotate(A, z, 90)");
   CHECK(refusal("read(\"a.off\")").find("a file is named by file(") != std::string::npos);
   CHECK(refusal("plate = box(0,0,0,1,1,1); plat") ==
         "column 27: there is no set or function 'plat'; did you mean 'plate'?");

@@ -54,10 +54,20 @@ TEST_CASE("usage errors are one line and exit code 2") {
   check_refused(here.nef("unoin a.off -o b.off"),
                 "there is no subcommand 'unoin'; did you mean 'union'? (see nef --help)");
   check_refused(here.nef("rotate a.off -o b.off"), "there is no subcommand 'rotate'; did you mean 'transform'?");
-  check_refused(here.nef("section a.off --plane z=2"), "--plane: 'z=2' is not a number");
+  check_refused(here.nef("section a.off --plane z=2"), "--plane a,b,c,d: 'z=2' is not a number");
   check_refused(here.nef("section a.off --plane 0,0,1,-1 -o b.pdf"), "svg, dxf, nef,");
   check_refused(here.nef("info a.off --thraeds 2"),
                 "no option '--thraeds'; did you mean '--threads'? (see nef info --help)");
+  check_refused(here.nef("--threads 2 info a.off"),
+                "there is no option '--threads' before the subcommand; write it behind 'info'");
+  check_refused(here.nef("info a.off --threads x"), "--threads: expected a number from 0 to 4096, not 'x'");
+  check_refused(here.nef("equal a.off"), "give at least 2 inputs, not 1");
+  check_refused(here.nef("subdivide a.off -o b.off --scheme fast"), "--scheme: expected midpoint or loop, not 'fast'");
+  check_refused(here.nef("subdivide a.off -o b.off --times"), "--times needs a value: UINT");
+  check_refused(here.nef("complement a.off 1 2 -o b.off"),
+                "unexpected argument '1'; several numbers are one word with commas");
+  check_refused(here.nef("picture a.off -o b.png --size 480"),
+                "--size: expected WIDTHxHEIGHT, as in 1200x900, instead of '480'");
   check_refused(here.nef("eval a.off -o b.off"), R"(a.off is a file: write 'file("a.off")')");
   check_refused(here.nef("eval model.scad -o b.off"), "openscad -o model.csg model.scad");
   check_refused(here.nef("intersection a.off"), "nef intersection --help");

@@ -51,6 +51,37 @@ def wrong_in_readme(plot, readme: str, tables: list) -> list[str]:
     return problems
 
 
+def extremes(numbers) -> tuple[str, str]:
+    """The least and the greatest number, with two digits."""
+    numbers = list(numbers)
+    return shown(min(numbers)), shown(max(numbers))
+
+
+def expected_sentences(plot, tables: list) -> dict[str, list[str]]:
+    """What README and docs/benchmarks.md say in sentences, from the tables: the pages' names, and phrases that they must have."""
+    beside = next(t for t in tables if "B/vertex" in t.header)
+
+    def numbers(name: str, after: str = "") -> list[float]:
+        return [plot.number(cell) for cell in beside.column(name, after)]
+
+    least, most = extremes(numbers("ratio", "operation"))
+    slower, faster = extremes(1 / float(ratio) for ratio in (most, least))
+    memory = " to ".join(extremes(numbers("ratio", "peak MB")))
+    imports = " to ".join(f"{ratio:.1f}" for ratio in (min(numbers("ratio", "build")), max(numbers("ratio", "build"))))
+    exports = f"{max(numbers('ratio', 'export')):.1f}"
+    meshes = [plot.number(cell) for case, cell in zip(beside.column("case"), beside.column("B/vertex"))
+              if case.startswith(("spheres", "bigsmall", "scans"))]
+    threads = next(t for t in tables if "on two" in t.header)
+    gains = [float(gain) for cell in threads.column("gain", "operation") for gain in cell.split()]
+    two = f"{min(gains):.1f} to {max(gains):.1f}"
+    return {
+        "README.md": [f"about {round(max(meshes), -1):.0f} bytes per vertex", f"Booleans run {slower} to {faster} times as fast with {memory} of its memory",
+                      f"importing a mesh takes {imports} times as long", f"is {two} times as fast on two cores"],
+        "docs/benchmarks.md": [f"Booleans take {least} to {most} of its time and {memory} of its memory",
+                               f"importing a mesh takes {imports} times as long", f"exports take up to {exports} times as long"],
+    }
+
+
 def main() -> int:
     source, work = sys.argv[1:]
     sys.path.insert(0, os.path.join(source, "bench"))
@@ -82,6 +113,10 @@ def main() -> int:
                         problems.append(f"{folder}: bench_{name}.svg has no {case}; draw it anew with bench/plot.py")
     with open(os.path.join(source, "README.md"), encoding="utf-8") as file:
         problems += wrong_in_readme(plot, file.read(), plot.tables_in(results))
+    for name, phrases in expected_sentences(plot, plot.tables_in(results)).items():
+        with open(os.path.join(source, name), encoding="utf-8") as file:
+            text = " ".join(file.read().split())
+        problems += [f"{name} does not say: {phrase}" for phrase in phrases if phrase not in text]
     for problem in problems:
         print(problem)
     return 1 if problems else 0

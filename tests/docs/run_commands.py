@@ -8,7 +8,7 @@ A fenced block with title="NAME" is written to that file of the folder in which 
 A command line is an indented line, or a line of a fenced block of shell, that begins with one of the suite's programs.
 After "$ " the lines below it, up to the next command or the end of the block, are what it must print, in stdout or
 stderr; "..." there stands for any lines. All others must end with exit code 0, or 1 where that is an answer (no way, not
-equal). The commands of a document run in its order in a folder of its own, in which data/ is the suite's. Lines with
+equal). The commands of a document run in its order in a folder of its own, in which data/ and python/ are the suite's. Lines with
 placeholders (FILE, [--option], ...) are synopses and left out.
 """
 import os
@@ -20,7 +20,8 @@ import sys
 PROGRAMS = ("printf", "cat", "mkdir", "cp", "nef", "minkowski", "visual_hull", "planner", "render_silhouettes",
             "build/release/bin/sum_peer")
 # Commands of tutorials that need more than the programs: run only if the document is named on the command line.
-BUILDERS = ("cmake", "./build/bracket", "./build/plan")
+BUILDERS = ("cmake", "./build/bracket", "./build/part", "./build/plan")
+CHECKER = "python3 python/proofs/check.py "  # of proofs; needs nothing else
 TITLE = re.compile(r'title="([\w.]+)"')
 DOCUMENTS = ("README.md", "docs", "apps/planner/README.md")
 PLACEHOLDER = re.compile(r"(?:^|[\s|=])(?:[A-Z][A-Z_]*\d?(?:\.[a-z]+)?|\.\.\.)(?=$|[\s|\]])|[\[\]]")
@@ -79,7 +80,7 @@ def commands(path: str, programs: tuple[str, ...] = PROGRAMS) -> list[Command]:
         text = line[4:] if fence is None else line
         compared = text.startswith("$ ")
         command = text[2:] if compared else text
-        if command.split(" ")[0] in programs and (compared or not printing):
+        if (command.split(" ")[0] in programs or command.startswith(CHECKER)) and (compared or not printing):
             printing = compared
             result.append(Command(f"{os.path.basename(path)}:{number}", block, command, compared))
         elif compared:
@@ -147,7 +148,8 @@ def main() -> int:
         folder = os.path.join(work, os.path.relpath(document, source).replace("/", "_"))
         shutil.rmtree(folder, ignore_errors=True)
         os.makedirs(folder)
-        os.symlink(os.path.join(source, "data"), os.path.join(folder, "data"))
+        for name in ("data", "python"):
+            os.symlink(os.path.join(source, name), os.path.join(folder, name))
         for name, text in files(document).items():
             with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
                 file.write(text)

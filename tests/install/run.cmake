@@ -105,7 +105,7 @@ endif()
 
 # The projects of the tutorials, from their pages.
 if(PYTHON)
-  set(pages ${SOURCE}/../../../docs/tutorials/cmake.md)
+  set(pages ${SOURCE}/../../../docs/tutorials/cmake.md ${SOURCE}/../../../docs/tutorials/cgal.md)
   if(EXISTS ${BUILD}/apps/planner/libnef_planner.a)
     list(APPEND pages ${SOURCE}/../../../docs/tutorials/ompl.md)
   endif()

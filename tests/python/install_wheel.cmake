@@ -8,6 +8,7 @@ file(COPY ${SOURCE}/python/tests/test_examples.py ${SOURCE}/python/tests/conftes
 # Pages whose examples it runs, where it looks for them.
 file(COPY ${SOURCE}/README.md DESTINATION ${WORK})
 file(COPY ${SOURCE}/docs/tutorials/python.md DESTINATION ${WORK}/docs/tutorials)
+file(COPY ${SOURCE}/docs/python.md ${SOURCE}/docs/labels.md DESTINATION ${WORK}/docs)
 function(run)
   execute_process(COMMAND ${ARGN} WORKING_DIRECTORY ${WORK}/elsewhere OUTPUT_VARIABLE output ERROR_VARIABLE output
                   RESULT_VARIABLE code)

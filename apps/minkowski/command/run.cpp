@@ -82,7 +82,7 @@ class Run {
 
   // R,N as an approximation of a ball, with what is reported of it.
   Polyhedron ball_tool() {
-    const std::vector<Rational> numbers = parse_numbers(a_.ball, 2, "--ball");
+    const std::vector<Rational> numbers = parse_numbers(a_.ball, 2, "--ball R,N");
     const Side side = a_.outer ? Side::kOuter : Side::kInner;
     const BallApproximation ball = ball_approximation(numbers[0], splits(numbers[1], "--ball"), side);
     details_["ball"] = {{"side", side == Side::kInner ? "inner" : "outer"},
@@ -110,7 +110,7 @@ class Run {
   Polyhedron second_operand() {
     if (!a_.ball.empty()) return ball_tool();
     if (!a_.box_tool.empty()) {
-      const std::vector<Rational> n = parse_numbers(a_.box_tool, 3, "--box-tool");
+      const std::vector<Rational> n = parse_numbers(a_.box_tool, 3, "--box-tool x,y,z");
       Rational3 low;
       for (std::size_t i = 0; i < 3; ++i) low[i] = n[i] / -2;
       for (const Rational& x : n) {
@@ -154,7 +154,7 @@ class Run {
       return sweep(a, path, options_, &report_);
     }
     const bool fine = a_.offset.find(',') != std::string::npos;
-    const std::vector<Rational> numbers = parse_numbers(a_.offset, fine ? 2 : 1, "--offset");
+    const std::vector<Rational> numbers = parse_numbers(a_.offset, fine ? 2 : 1, "--offset R[,N]");
     const int n = fine ? splits(numbers[1], "--offset") : 8;
     const Side side = a_.inner ? Side::kInner : Side::kOuter;
     if (sgn(numbers[0]) != 0) {
@@ -305,7 +305,7 @@ class Run {
               {"obstacles", a_.preview.empty() ? Polyhedron() : unite_all(obstacles, session_.monitor)}};
     std::optional<std::array<Rational3, 2>> box;
     if (!a_.box.empty()) {
-      const std::vector<Rational> n = parse_numbers(a_.box, 6, "--box");
+      const std::vector<Rational> n = parse_numbers(a_.box, 6, "--box x0,y0,z0,x1,y1,z1");
       const Rational3 low{n[0], n[1], n[2]};
       const Rational3 high{n[3], n[4], n[5]};
       for (std::size_t i = 0; i < 3; ++i) {

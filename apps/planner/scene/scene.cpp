@@ -5,6 +5,7 @@
 // key.
 #include "apps/planner/scene/scene.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 
@@ -13,6 +14,7 @@
 #include "apps/program/json_reader.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
+#include "nef/io/polyhedron_file.h"
 
 namespace nef::planner {
 namespace {
@@ -120,8 +122,14 @@ Scene parse_scene(const std::string& text, const std::string& folder, const std:
 }
 
 Scene read_scene(const std::string& path, const MeshOptions& meshes) {
-  if (lower_extension(path) == "cfg") return read_cfg(path, meshes);
-  return parse_scene(read_file(path), std::filesystem::path(path).parent_path().string(), path, meshes);
+  const std::string extension = lower_extension(path);
+  if (extension == "cfg") return read_cfg(path, meshes);
+  const std::string text = read_file(path);
+  const std::vector<std::string> sets = file_extensions();
+  if (std::find(sets.begin(), sets.end(), extension) != sets.end()) {
+    throw InputError(path + ": a set, not a scene; a scene is a .json file that names a robot and obstacles");
+  }
+  return parse_scene(text, std::filesystem::path(path).parent_path().string(), path, meshes);
 }
 
 }  // namespace nef::planner

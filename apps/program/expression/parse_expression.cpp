@@ -191,6 +191,9 @@ class ExpressionParser : private ExpressionScanner {
     if (name == "read" || name == "load" || name == "import" || name == "open") return kFilesAreNamed;
     const std::string_view next = text().substr(std::min(offset() + name.size(), text().size()));
     if (next.size() > 1 && next[0] == '.' && is_letter(next[1])) return kFilesAreNamed;  // "a.off"
+    if (next.size() > 1 && next[0] == '/' && is_letter(next[1])) return kFilesAreNamed;  // "models/a.off"
+    const bool is_axis = name == "x" || name == "y" || name == "z";
+    if (is_axis && next.substr(0, 1) == ",") return "; the set comes first, as in rotate(A, z, 90)";
     return did_you_mean(name, known);
   }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/visual_hull/formats/read_scene.h"
 
+#include <algorithm>
+
 #include "apps/visual_hull/formats/colmap.h"
 #include "apps/visual_hull/formats/matlab.h"
 #include "apps/visual_hull/formats/opencv_storage.h"
@@ -10,6 +12,7 @@
 #include "apps/visual_hull/formats/vsh.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
+#include "nef/io/polyhedron_file.h"
 
 namespace nef::visual_hull {
 namespace fs = std::filesystem;
@@ -50,6 +53,11 @@ Scene read_scene(const fs::path& file, const ReadOptions& options) {
     return read_colmap(file.parent_path());
   }
   const std::string text = nef::read_file(file.string());
+  const std::vector<std::string> sets = nef::file_extensions();
+  if (std::find(sets.begin(), sets.end(), nef::lower_extension(file.string())) != sets.end()) {
+    throw nef::InputError(
+        file.string() + ": a set, not a scene with cameras and silhouettes; render_silhouettes makes one from a mesh");
+  }
   if (is_matlab_file(text)) return read_matlab(file, options.matrices);
   if (is_opencv_storage(text)) return read_opencv_storage(text, file, options.matrices);
   refuse_matrices(file, options);

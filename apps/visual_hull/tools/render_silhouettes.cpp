@@ -10,11 +10,12 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <filesystem>
-#include <iostream>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
+#include "apps/program/run_program.h"
+#include "apps/program/version.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/mesh/mesh_reader.h"
@@ -161,7 +162,8 @@ void run(const Arguments& a) {
 
 int main(int argc, char** argv) {
   Arguments arguments;
-  CLI::App app{"Renders silhouettes of a mesh from cameras around it, with a scene for visual_hull"};
+  CLI::App app{"Renders silhouettes of a mesh from cameras around it, with a scene for visual_hull",
+               "render_silhouettes"};
   app.add_option("MESH", arguments.mesh, "Any mesh that nef reads")->required();
   app.add_option("-o,--output", arguments.directory, "Directory for the images and the scene")->required();
   app.add_option("--views", arguments.views, "Number of cameras")->check(CLI::Range(1, 1000));
@@ -169,17 +171,9 @@ int main(int argc, char** argv) {
   app.add_option("--height", arguments.height, "Height of the images")->check(CLI::Range(8, 10000));
   app.add_option("--elevations", arguments.elevations, "Angles over the horizon in degrees, in turn");
   app.add_option("--up", arguments.up, "Vertical axis")->check(CLI::IsMember({"x", "y", "z"}));
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return error.get_exit_code() == 0 ? app.exit(error)
-                                      : (std::cerr << "render_silhouettes: " << error.what() << "\n", 2);
-  }
-  try {
+  app.set_version_flag("--version", nef::version_text("render_silhouettes"));
+  return nef::run_program(app, argc, argv, [&arguments] {
     run(arguments);
     return 0;
-  } catch (const std::exception& error) {
-    std::cerr << "render_silhouettes: " << error.what() << "\n";
-    return 2;
-  }
+  });
 }

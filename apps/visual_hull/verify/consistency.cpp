@@ -4,7 +4,7 @@
 // Sorted by depth, the ends of these parts are a sweep along the line that knows how many views reject the present
 // point; sums over the numbers and the squares of the rejecting views tell which they are while they are one or two.
 // Only the part of a line where at most two views may reject matters, so that the events elsewhere are counted and not
-// sorted. The sums over all lines give R, D and U of each view (docs/visual_hull.md).
+// sorted. The sums over all lines give R, D and U of each view (docs/how/visual_hull.md).
 //
 // Sets of views without a common point: the sets of views that see some point of a line are collected, and the smallest
 // combinations that no such set contains are candidates.

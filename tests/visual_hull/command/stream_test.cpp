@@ -11,6 +11,7 @@
 #include "apps/visual_hull/stream.h"
 #include "nef/base/error.h"
 #include "nef/base/threads/parallel.h"
+#include "nef/export/to_mesh.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/polyhedron.h"
@@ -27,6 +28,17 @@ using Catch::Contains;
 using testing::Outcome;
 using testing::run;
 using testing::Scratch;
+
+// The example in stream.h, as it is printed there (tests/docs/check_snippets.py compares them).
+struct Grabber {
+  bool grab(std::vector<cv::Mat>& masks) const { return left > masks.size(); }
+  std::size_t left = 0;
+};
+[[maybe_unused]] void example(const nef::visual_hull::Options& options, const Grabber& camera,
+                              std::vector<cv::Mat>& masks) {
+  const nef::visual_hull::HullStream stream(nef::visual_hull::read_scene("rig.json"), options);
+  while (camera.grab(masks)) nef::Mesh mesh = nef::to_mesh(stream.frame(masks).hull).mesh;
+}
 
 fs::path elk() { return fs::path(source_folder()) / "data/visual_hull/elk"; }
 

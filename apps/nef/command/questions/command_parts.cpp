@@ -49,8 +49,8 @@ void write_section(Session& session, const Section& section, const Rational3& no
 }
 
 void run_section(Session& session, const std::string& plane) {
-  const std::vector<Rational> n = parse_numbers(plane, "--plane");
-  if (n.size() != 4) throw InputError("--plane: expected four numbers a,b,c,d instead of " + std::to_string(n.size()));
+  const std::vector<Rational> n = parse_numbers(plane, "--plane a,b,c,d");
+  if (n.size() != 4) throw InputError("--plane: expected four numbers a,b,c,d instead of '" + plane + "'");
   const Rational3 normal{n[0], n[1], n[2]};
   const Polyhedron set = session.load(session.input);
   const Stopwatch watch;

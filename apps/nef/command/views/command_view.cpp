@@ -64,7 +64,7 @@ void parse_size(const std::string& text, view::PictureOptions& options) {
   const std::size_t x = text.find('x');
   const auto number = [&text](const std::string& part) {
     if (part.empty() || part.size() > 5 || part.find_first_not_of("0123456789") != std::string::npos) {
-      throw InputError("size \"" + text + "\" is not WIDTHxHEIGHT, 1200x900 for example");
+      throw InputError("--size: expected WIDTHxHEIGHT, as in 1200x900, instead of '" + text + "'");
     }
     return static_cast<std::uint32_t>(std::stoul(part));
   };
@@ -101,12 +101,13 @@ void run_picture(Session& session, const PictureFlags& flags) {
   view::PictureOptions picture;
   if (!flags.size.empty()) parse_size(flags.size, picture);
   if (!flags.section.empty()) {
-    const std::vector<Rational> numbers = parse_numbers(flags.section, "section");
-    if (numbers.size() != 4) throw InputError("section \"" + flags.section + "\" is not four numbers a,b,c,d");
+    const std::vector<Rational> numbers = parse_numbers(flags.section, "--section a,b,c,d");
+    if (numbers.size() != 4)
+      throw InputError("--section: expected four numbers a,b,c,d instead of '" + flags.section + "'");
     scene.section = {numbers[0], numbers[1], numbers[2], numbers[3]};
   }
   if (!flags.from.empty()) {
-    const Rational3 from = parse_triple(flags.from, "from");
+    const Rational3 from = parse_triple(flags.from, "--from x,y,z");
     picture.from = {nearest_double(from[0]), nearest_double(from[1]), nearest_double(from[2])};
   } else if (scene.section && ((*scene.section)[0] != 0 || (*scene.section)[1] != 0 || (*scene.section)[2] != 0)) {
     picture.from = towards_section(*scene.section);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The normal is the product of two sides of the triangle, divided by the common factor of its parts; what then is
-// common to it and the offset is a divisor of the denominator. Short numbers are brought over one denominator and
-// multiplied in machine integers, up to the whole plane if that is short, too; long ones are left to GMP.
+// common to it and the offset is a divisor of the denominator. Numbers of one word are brought over one denominator and
+// multiplied in machine integers, up to the whole plane if that is short, too; of numbers of two words the normal is
+// computed so, and longer ones are left to GMP.
 #include "nef/geometry/plane_finder.h"
 
 #include <algorithm>
 #include <cstdlib>
-#include <numeric>
 #include <span>
 
 #include "nef/base/fast_path.h"
@@ -19,26 +19,28 @@ namespace {
 // x, y, z, w where they are below 2^62, and zeros.
 using Homogeneous = std::array<std::int64_t, 7>;
 
-// Three points over one denominator, which is below 2^62 like all the numbers; false if that is not so.
-bool over_one_denominator(std::array<Homogeneous, 3>& points) {
-  constexpr Int128 kLimit = Int128{1} << 62U;
-  Int128 common = points[0][3];
+// Brings three points over one denominator below 2^64, with all numbers below 2^kWidth; false if that cannot be.
+template <int kWidth, typename Point>
+bool over_one_denominator(std::array<Point, 3>& points) {
+  using Number = typename Point::value_type;
+  const auto fits = [](Unsigned128 value) { return bit_width(value) <= std::min(kWidth, 64); };
+  auto common = static_cast<Unsigned128>(points[0][3]);
+  if (!fits(common)) return false;
   for (std::size_t k = 1; k < 3; ++k) {
-    const std::int64_t w = points[k][3];
-    if (w == points[0][3]) continue;
-    common *= w / common_divisor(w, static_cast<std::int64_t>(common));
-    if (common >= kLimit) return false;
+    const auto w = static_cast<Unsigned128>(points[k][3]);
+    if (w == common) continue;
+    if (!fits(w)) return false;
+    common *= w / greatest_common_divisor(static_cast<std::uint64_t>(w), static_cast<std::uint64_t>(common));
+    if (!fits(common)) return false;
   }
-  const auto denominator = static_cast<std::int64_t>(common);
-  for (Homogeneous& p : points) {
-    if (p[3] == denominator) continue;
-    const std::int64_t factor = denominator / p[3];
+  for (Point& p : points) {
+    if (p[3] == static_cast<Number>(common)) continue;
+    const Number factor = static_cast<Number>(common) / p[3];
     for (std::size_t i = 0; i < 3; ++i) {
-      const Int128 x = static_cast<Int128>(factor) * p[i];
-      if (x >= kLimit || x <= -kLimit) return false;
-      p[i] = static_cast<std::int64_t>(x);
+      if (bit_width(magnitude(p[i])) + bit_width(magnitude(factor)) > kWidth) return false;
+      p[i] *= factor;
     }
-    p[3] = denominator;
+    p[3] *= factor;
   }
   return true;
 }
@@ -62,7 +64,7 @@ std::optional<SmallSides> small_sides(const PointTable& points, const std::array
   for (std::size_t k = 0; k < 3; ++k) {
     if (!points.small_coordinates(triangle[k], s.at[k])) return std::nullopt;
   }
-  if (!over_one_denominator(s.at)) return std::nullopt;
+  if (!over_one_denominator<62>(s.at)) return std::nullopt;
   for (std::size_t i = 0; i < 3; ++i) {
     s.u[i] = s.at[1][i] - s.at[0][i];
     s.v[i] = s.at[2][i] - s.at[0][i];
@@ -71,15 +73,44 @@ std::optional<SmallSides> small_sides(const PointTable& points, const std::array
   return s;
 }
 
-// The product of the sides of a triangle in machine integers: its parts are differences of two products of numbers
-// whose widths add up to 126 bits at most, so below 2^127. False if numbers are not that small.
-bool small_normal(const PointTable& points, const std::array<PointId, 3>& triangle, Integer3& n) {
-  const std::optional<SmallSides> s = small_sides(points, triangle);
-  if (!s || s->width > 126) return false;
+// x, y, z, w where they are below 2^126.
+using WideHomogeneous = std::array<Int128, 4>;
+
+bool read_wide(const PointTable& points, PointId point, WideHomogeneous& out) {
+  static_assert(GMP_NUMB_BITS == 64);
+  const std::array<IntegerView, 4> at = points.coordinates(point);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::size_t size = mpz_size(at[i]);
+    const mp_limb_t high = size < 2 ? 0 : mpz_getlimbn(at[i], 1);
+    if (size > 2 || high >> 62U != 0) return false;
+    const auto value = static_cast<Int128>(static_cast<Unsigned128>(high) << 64U | mpz_getlimbn(at[i], 0));
+    out[i] = at[i].sign() < 0 ? -value : value;
+  }
+  return true;
+}
+
+Unsigned128 bits_of(const std::array<Int128, 3>& v) { return magnitude(v[0]) | magnitude(v[1]) | magnitude(v[2]); }
+
+// The product of the sides of a triangle in integers of two words: the sides are differences of numbers below 2^126,
+// and the parts of their product differences of two products of numbers whose widths add up to 126 bits at most, so
+// below 2^127. False if numbers are longer.
+bool wide_normal(const PointTable& points, const std::array<PointId, 3>& triangle, Integer3& n) {
+  std::array<WideHomogeneous, 3> at;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (!read_wide(points, triangle[k], at[k])) return false;
+  }
+  if (!over_one_denominator<126>(at)) return false;
+  std::array<Int128, 3> u;
+  std::array<Int128, 3> v;
+  for (std::size_t i = 0; i < 3; ++i) {
+    u[i] = at[1][i] - at[0][i];
+    v[i] = at[2][i] - at[0][i];
+  }
+  if (bit_width(bits_of(u)) + bit_width(bits_of(v)) > 126) return false;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
     const std::size_t k = (i + 2) % 3;
-    assign(n[i], static_cast<Int128>(s->u[j]) * s->v[k] - static_cast<Int128>(s->u[k]) * s->v[j]);
+    assign(n[i], u[j] * v[k] - u[k] * v[j]);
   }
   return true;
 }
@@ -123,8 +154,11 @@ std::optional<PlaneId> PlaneFinder::through_small(PlaneTable& planes, const Poin
   const auto& [at, u, v, width] = *sides;
   std::array<std::int64_t, 3> n;
   for (std::size_t i = 0; i < 3; ++i) n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
-  std::int64_t divisor = std::gcd(n[0], n[1]);
-  if (divisor != 1) divisor = std::gcd(divisor, n[2]);
+  const auto size = [&n](std::size_t i) { return static_cast<std::uint64_t>(std::abs(n[i])); };
+  auto divisor = static_cast<std::int64_t>(greatest_common_divisor(size(0), size(1)));
+  if (divisor != 1) {
+    divisor = static_cast<std::int64_t>(greatest_common_divisor(static_cast<std::uint64_t>(divisor), size(2)));
+  }
   if (divisor == 0) return PlaneId();
   Int128 offset = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -143,7 +177,7 @@ PlaneId PlaneFinder::through(PlaneTable& planes, const PointTable& points, Point
   if (kFastPaths) {
     if (const std::optional<PlaneId> plane = through_small(planes, points, {o, p, q})) return *plane;
   }
-  if (!kFastPaths || !small_normal(points, {o, p, q}, n_)) {
+  if (!kFastPaths || !wide_normal(points, {o, p, q}, n_)) {
     const std::span<Integer, 2> scratch = std::span(n_).first<2>();
     difference(points, p, o, u_, scratch);
     difference(points, q, o, v_, scratch);

@@ -28,14 +28,28 @@ double scaled(Int128 value, long top) {
   return value < 0 ? -bits * power : bits * power;
 }
 
-// The same for any integer, as GMP cuts it off.
+// The number of bits of an integer that is not 0.
+long bits_of(mpz_srcptr value) {
+  const auto last = static_cast<mp_size_t>(mpz_size(value) - 1);
+  return 64 * last + static_cast<long>(std::bit_width(mpz_getlimbn(value, last)));
+}
+
+// The same for any integer.
 double scaled(mpz_srcptr value, long top) {
-  long exponent = 0;
-  const double mantissa = mpz_get_d_2exp(&exponent, value);
-  const long shift = exponent - top;
+  static_assert(GMP_NUMB_BITS == 64);
+  if (mpz_sgn(value) == 0) return 0.0;
+  const auto last = static_cast<mp_size_t>(mpz_size(value) - 1);
+  mp_limb_t bits = mpz_getlimbn(value, last);
+  const int unused = std::countl_zero(bits);
+  if (unused > 0) bits = bits << unused | (last > 0 ? mpz_getlimbn(value, last - 1) >> (64 - unused) : 0);
+  const auto first = static_cast<double>(static_cast<std::int64_t>(bits >> 11U));  // 53 bits
+  const double mantissa = mpz_sgn(value) < 0 ? -first : first;
+  const long shift = 64 * (last + 1) - unused - top;  // the value is below 2^shift
   if (shift > 1023) return mantissa < 0 ? -HUGE_VAL : HUGE_VAL;
   if (shift < -1060) return 0.0;
-  return std::ldexp(mantissa, static_cast<int>(shift));
+  constexpr long kLeast = -960;  // above it neither the power of two nor the value is too small for all its bits
+  if (shift < kLeast) return std::ldexp(mantissa, static_cast<int>(shift) - 53);
+  return mantissa * std::bit_cast<double>(static_cast<std::uint64_t>(1023 + shift - 53) << 52U);
 }
 
 }  // namespace
@@ -253,19 +267,18 @@ Integer PlaneTable::oriented_coefficient(PlaneId plane, std::size_t column) cons
 
 PlaneId PlaneTable::find_or_add_last() {
   return find_or_add_last([this] {
-    const auto candidate = static_cast<std::uint32_t>(rows_.size() - 1);
+    const std::array<IntegerView, 5> row = rows_.first<5>(static_cast<std::uint32_t>(rows_.size() - 1));
     long top = std::numeric_limits<long>::min();
     for (std::size_t i = 0; i < 3; ++i) {
-      const IntegerView value = rows_.at(candidate, i);
-      if (value.sign() != 0) top = std::max(top, static_cast<long>(mpz_sizeinbase(value, 2)));
+      if (row[i].sign() != 0) top = std::max(top, bits_of(row[i]));
     }
     std::array<double, 4> result{};
-    for (std::size_t i = 0; i < 4; ++i) result[i] = scaled(rows_.at(candidate, i), top);
-    if (rows_.sign(candidate, 4) != 0) result[3] = rows_.sign(candidate, 4) > 0 ? HUGE_VAL : -HUGE_VAL;
+    for (std::size_t i = 0; i < 4; ++i) result[i] = scaled(row[i], top);
+    if (row[4].sign() != 0) result[3] = row[4].sign() > 0 ? HUGE_VAL : -HUGE_VAL;
     // What is lost here may be all that matters at a point far away.
     constexpr double kLeast = 0x1p-1000;
     for (std::size_t i = 0; i < 3; ++i) {
-      if (rows_.sign(candidate, i) != 0 && std::fabs(result[i]) < kLeast) result[3] = HUGE_VAL;
+      if (row[i].sign() != 0 && std::fabs(result[i]) < kLeast) result[3] = HUGE_VAL;
     }
     return result;
   });

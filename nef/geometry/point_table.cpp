@@ -6,8 +6,6 @@
 #include "nef/geometry/point_table.h"
 
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 #include "nef/base/capacity.h"
 #include "nef/base/error.h"
@@ -20,24 +18,29 @@ namespace {
 
 constexpr Int128 kExactDouble = Int128{1} << 53U;  // integers below it are doubles
 
-// The homogeneous coordinates x, y, z, w of a point whose fractions and common denominator are small.
-bool small_fractions(const Rational3& point, std::array<std::int64_t, 4>& h) {
-  std::array<std::int64_t, 3> denominator{};
-  h[3] = 1;
+// The homogeneous coordinates x, y, z, w of a point whose fractions are of one word each, as is their common
+// denominator.
+bool short_fractions(const Rational3& point, std::array<Int128, 7>& h) {
+  static_assert(GMP_NUMB_BITS == 64);
+  std::array<std::uint64_t, 3> denominator{};
+  std::uint64_t w = 1;
   for (std::size_t i = 0; i < 3; ++i) {
     const mpz_srcptr den = point[i].get_den_mpz_t();
-    if (mpz_fits_slong_p(den) == 0 || mpz_fits_slong_p(point[i].get_num_mpz_t()) == 0) return false;
-    denominator[i] = mpz_get_si(den);
-    if (h[3] % denominator[i] == 0) continue;
-    const Int128 common = static_cast<Int128>(h[3] / std::gcd(h[3], denominator[i])) * denominator[i];
-    if (common > std::numeric_limits<std::int64_t>::max()) return false;
-    h[3] = static_cast<std::int64_t>(common);
+    if (mpz_size(den) > 1 || mpz_size(point[i].get_num_mpz_t()) > 1) return false;
+    denominator[i] = mpz_getlimbn(den, 0);
+    if (w == denominator[i] || w % denominator[i] == 0) continue;
+    const Unsigned128 common =
+        static_cast<Unsigned128>(w / greatest_common_divisor(w, denominator[i])) * denominator[i];
+    if (common >> 64U != 0) return false;
+    w = static_cast<std::uint64_t>(common);
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    const Int128 x = static_cast<Int128>(mpz_get_si(point[i].get_num_mpz_t())) * (h[3] / denominator[i]);
-    if (x > std::numeric_limits<std::int64_t>::max() || x < -std::numeric_limits<std::int64_t>::max()) return false;
-    h[i] = static_cast<std::int64_t>(x);
+    const mpz_srcptr num = point[i].get_num_mpz_t();
+    const Unsigned128 x = static_cast<Unsigned128>(mpz_getlimbn(num, 0)) * (w / denominator[i]);
+    if (x >> 127U != 0) return false;
+    h[i] = mpz_sgn(num) < 0 ? -static_cast<Int128>(x) : static_cast<Int128>(x);
   }
+  h[3] = w;
   return true;
 }
 
@@ -80,8 +83,7 @@ std::array<Int128, 4> small_intersection(const std::array<std::array<std::int64_
 }  // namespace
 
 PointId PointTable::push(const Rational3& point) {
-  if (std::array<std::int64_t, 4> small{}; small_fractions(point, small))
-    return push_homogeneous(std::array<Int128, 7>{small[0], small[1], small[2], small[3]});  // no part in R
+  if (std::array<Int128, 7> words{}; short_fractions(point, words)) return push_homogeneous(words);  // no part in R
   std::array<Integer, 7> h;
   mpz_ptr w = h[3].get_mpz_t();
   mpz_lcm(w, point[0].get_den_mpz_t(), point[1].get_den_mpz_t());

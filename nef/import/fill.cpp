@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <map>
 #include <optional>
 #include <utility>
@@ -241,7 +240,35 @@ class WindingFiller {
     PatternId pattern;
     std::uint32_t sfaces = 0;
     std::uint32_t flat_edges = 0;
-    auto operator<=>(const MapKey&) const = default;
+    bool operator==(const MapKey&) const = default;
+  };
+
+  // What the patterns of a complex become, by what that depends on.
+  class MarkedPatterns {
+   public:
+    explicit MarkedPatterns(const PatternTable& patterns) : last_(patterns.size(), kNone) {}
+
+    // Not valid if it is not known.
+    [[nodiscard]] PatternId find(const MapKey& key) const {
+      std::uint32_t i = last_[key.pattern.index()];
+      while (i != kNone && !(entries_[i].key == key)) i = entries_[i].before;
+      return i == kNone ? PatternId() : entries_[i].marked;
+    }
+
+    void add(const MapKey& key, PatternId marked) {
+      std::uint32_t& last = last_[key.pattern.index()];
+      entries_.push_back({key, marked, last});
+      last = static_cast<std::uint32_t>(entries_.size() - 1);
+    }
+
+   private:
+    struct Entry {
+      MapKey key;
+      PatternId marked;
+      std::uint32_t before;  // entry of the same pattern
+    };
+    std::vector<std::uint32_t> last_;  // entry of each pattern
+    std::vector<Entry> entries_;
   };
 
   // Nothing if there may be no vertex, which planes decide, or if there are too many items.
@@ -269,7 +296,7 @@ class WindingFiller {
   void mark_sphere_maps(Complex& c) {
     PatternTable patterns;
     PatternInterner interner;
-    std::map<MapKey, PatternId> known;
+    MarkedPatterns known(c.patterns);
     std::vector<PatternId> pattern_of(c.vertex_count());
     SphereMapBuffer map;
     for (const VertexId v : c.vertex_ids()) {
@@ -277,10 +304,8 @@ class WindingFiller {
       const std::optional<MapKey> key = key_of(c, v, view);
       PatternId& pattern = pattern_of[v.index()];
       if (key) {
-        if (const auto at = known.find(*key); at != known.end()) {
-          pattern = at->second;
-          continue;
-        }
+        pattern = known.find(*key);
+        if (pattern.valid()) continue;
       }
       map.assign(view);
       for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) {
@@ -289,7 +314,7 @@ class WindingFiller {
       mark_between(c.planes, map);
       pattern = marked_pattern(c.patterns.view(c.vertices.pattern(v)), map, patterns, interner);
       std::copy(map.sloops.begin(), map.sloops.end(), c.sloops.begin() + c.vertices[v].sloops);
-      if (key) known.emplace(*key, pattern);
+      if (key) known.add(*key, pattern);
     }
     for (const VertexId v : c.vertex_ids()) c.vertices.set_pattern(v, pattern_of[v.index()]);
     c.patterns = std::move(patterns);

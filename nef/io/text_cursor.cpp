@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A decimal of up to 18 digits fits into 64 bits, and so does the power of five of up to 27 places: the fraction is
-// reduced by shifting out twos and dividing out fives, because ten has no other factors, and no GMP division is needed.
-// All other numbers are left to `try_parse_rational`.
+// A decimal of up to 19 digits, or of 20 and below 2^64, fits into 64 bits, and so does the power of five of up to 27
+// places: the fraction is reduced by shifting out twos and dividing out fives, because ten has no other factors, and no
+// GMP division is needed. All other numbers are left to `try_parse_rational`.
 #include "nef/io/text_cursor.h"
 
 #include <array>
@@ -12,7 +12,7 @@
 namespace nef {
 namespace {
 
-constexpr int kMaxDigits = 18;  // 10^18 < 2^60
+constexpr int kMaxDigits = 19;  // 10^19 < 2^64
 constexpr int kMaxScale = 27;   // 5^27 < 2^63
 
 template <int kMost>
@@ -27,6 +27,12 @@ constexpr auto kPowerOfFive = powers_of<kMaxScale>(5);
 
 constexpr bool is_space(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// True if a number of so many digits, the first of which is not 0, is below 2^64; given that number modulo 2^64. One of
+// 20 digits that begins with 1 is below 2 10^19, and so 10^19 or more as long as it is below 2^64, and less behind it.
+bool is_short(int digits, char first, std::uint64_t modulo) {
+  return digits <= kMaxDigits || (digits == kMaxDigits + 1 && first == '1' && modulo >= kPowerOfTen[kMaxDigits]);
+}
 
 // Of each byte, whether it ends a word.
 constexpr std::array<bool, 256> kEndsWord = [] {
@@ -71,11 +77,13 @@ bool parse_short_decimal(std::string_view text, Rational& value) {
   if (p != end && (*p == '-' || *p == '+')) negative = *p++ == '-';
   std::uint64_t mantissa = 0;
   int digits = 0;  // from the first one on that is not zero
+  char first = '0';
   bool is_number = false;
   const auto take_digits = [&] {
     for (; p != end && is_digit(*p); ++p) {
-      mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p - '0');
-      if (mantissa != 0) ++digits;
+      mantissa = mantissa * 10 + static_cast<std::uint64_t>(*p - '0');  // of more digits, modulo 2^64
+      if (digits == 0) first = *p;
+      if (first != '0') ++digits;
       is_number = true;
     }
   };
@@ -86,7 +94,7 @@ bool parse_short_decimal(std::string_view text, Rational& value) {
     take_digits();
     scale = static_cast<int>(p - point);
   }
-  if (!is_number || text.size() > 30 || digits > kMaxDigits) return false;
+  if (!is_number || text.size() > 30 || !is_short(digits, first, mantissa)) return false;
   if (p != end && (*p == 'e' || *p == 'E')) {
     int exponent = 0;
     const char* from = p + 1;

@@ -14,7 +14,7 @@
 namespace nef {
 
 /// Sets `value` to the rational that `text` spells ("0.1" is one tenth, "1/3" is allowed). Returns
-/// false if it spells none. Decimals of up to 18 digits cost no GMP division.
+/// false if it spells none. Decimals of up to 19 digits cost no GMP division.
 bool parse_number(std::string_view text, Rational& value);
 
 /// A position in a text. Words are separated by white space; a comment runs from '#' to the end of its

@@ -7,7 +7,6 @@
 #include <bit>
 #include <compare>
 #include <cstdint>
-#include <numeric>
 
 #include "nef/number/number.h"
 
@@ -39,10 +38,30 @@ inline int bit_width(Unsigned128 value) {
                    : static_cast<int>(std::bit_width(static_cast<std::uint64_t>(value)));
 }
 
+/// The greatest common divisor; 0 of two zeros. By Stein's algorithm: O(bits), and each step without a branch, of which
+/// std::gcd has one that nobody could foresee.
+inline std::uint64_t greatest_common_divisor(std::uint64_t a, std::uint64_t b) {
+  if (a == 0 || b == 0) return a | b;
+  const int twos = std::countr_zero(a | b);
+  a >>= static_cast<unsigned>(std::countr_zero(a));
+  b >>= static_cast<unsigned>(std::countr_zero(b));
+  while (a != b) {
+    const std::uint64_t difference = a - b;
+    const std::uint64_t mask = a < b ? ~std::uint64_t{0} : 0;  // turns the difference around
+    b += difference & mask;                                    // the smaller one
+    a = (difference ^ mask) - mask;
+    a >>= static_cast<unsigned>(std::countr_zero(a));
+  }
+  return a << static_cast<unsigned>(twos);
+}
+
 /// The greatest common divisor of a positive number and any other one; at once if the first is a power of two, as
 /// denominators of doubles are.
 inline std::int64_t common_divisor(std::int64_t denominator, std::int64_t value) {
-  if (!std::has_single_bit(static_cast<std::uint64_t>(denominator))) return std::gcd(denominator, value);
+  if (!std::has_single_bit(static_cast<std::uint64_t>(denominator))) {
+    const auto size = value < 0 ? -static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
+    return static_cast<std::int64_t>(greatest_common_divisor(static_cast<std::uint64_t>(denominator), size));
+  }
   if (value == 0) return denominator;
   return std::int64_t{1} << std::min(std::countr_zero(static_cast<std::uint64_t>(denominator)),
                                      std::countr_zero(static_cast<std::uint64_t>(value)));
@@ -54,7 +73,7 @@ inline std::int64_t common_divisor(std::int64_t denominator, Int128 value) {
     return common_divisor(denominator, static_cast<std::int64_t>(static_cast<Unsigned128>(value) &
                                                                  static_cast<Unsigned128>(denominator - 1)));
   }
-  return std::gcd(denominator, static_cast<std::int64_t>(value % denominator));
+  return common_divisor(denominator, static_cast<std::int64_t>(value % denominator));
 }
 
 /// a b of two words each, in four.

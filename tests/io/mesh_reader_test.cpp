@@ -95,6 +95,28 @@ TEST_CASE("short decimals are the same numbers as by long division") {
   }
 }
 
+TEST_CASE("decimals at the limit of a machine word are the same numbers as by long division") {
+  // 2^64 is 0 modulo a word, and so are its multiples of 20 digits: none of them may pass for a short number.
+  for (const std::string digits :
+       {"999999999999999999", "1000000000000000000", "9223372036854775807", "9223372036854775808",
+        "9999999999999999999", "10000000000000000000", "19999999999999999999", "20000000000000000000",
+        "28446744073709551616", "18446744073709551615", "18446744073709551616", "36893488147419103232",
+        "92233720368547758080", "184467440737095516160", "18446744073709551616000"}) {
+    for (const std::string& text :
+         {digits, "-" + digits, "0." + digits, "-." + digits, "000" + digits,
+          digits.substr(0, 1) + "." + digits.substr(1), digits + ".0", digits + "e1", digits + "e-19", "0.000" + digits,
+          digits.substr(0, 1) + "e18", digits.substr(0, 1) + "e19", "1" + digits.substr(1) + "E+0"}) {
+      Rational value;
+      INFO(text);
+      REQUIRE(parse_number(text, value));
+      const std::optional<Rational> expected = try_parse_rational(text);
+      REQUIRE(expected.has_value());
+      CHECK(value == *expected);
+      CHECK(value.get_den() == expected->get_den());
+    }
+  }
+}
+
 TEST_CASE("OFF: variants of the header and of the lines") {
   const std::vector<Face> expected{{0, 1, 2}, {0, 2, 3, 1}};
   const auto check = [&](const std::string& text) {

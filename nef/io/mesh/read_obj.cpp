@@ -2,7 +2,9 @@
 //
 // Wavefront OBJ: the lines v and f, and o and g for the names of parts. Indices count from one, or back from the last
 // vertex if they are negative.
+#include <algorithm>
 #include <array>
+#include <cstring>
 
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/text_cursor.h"
@@ -30,6 +32,21 @@ std::string_view next_word(TextCursor& cursor) {
     if (word != "\\") return word;
     cursor.skip_line();
   }
+}
+
+// The lines that begin with the word v, but at most as many as the shortest lines of vertices would fill the file. Room
+// for so many vertices is made at once, as numbers of any length are not moved for nothing when there is more to come.
+std::size_t count_vertices(std::string_view bytes) {
+  constexpr std::size_t kShortest = 8;  // bytes of "v 0 0 0" and the end of the line
+  std::size_t count = 0;
+  const char* const end = bytes.data() + bytes.size();
+  for (const char* line = bytes.data(); end - line > 1;) {
+    if (line[0] == 'v' && (line[1] == ' ' || line[1] == '\t')) ++count;
+    const void* const stop = std::memchr(line, '\n', static_cast<std::size_t>(end - line));
+    if (stop == nullptr) break;
+    line = static_cast<const char*>(stop) + 1;
+  }
+  return std::min(count, bytes.size() / kShortest);
 }
 
 void read_vertex(TextCursor& cursor, Mesh& mesh) {
@@ -136,6 +153,7 @@ bool is_obj(std::string_view bytes) {
 Mesh read_obj(std::string_view bytes, const std::string& path, MeshParts* parts) {
   TextCursor cursor(bytes, path);
   Mesh mesh;
+  mesh.vertices.reserve(count_vertices(bytes));
   NamedRuns runs(parts);
   std::vector<std::size_t> lines;
   while (!cursor.at_end()) {

@@ -11,7 +11,6 @@
 #include <tuple>
 
 #include "nef/geometry/vectors.h"
-#include "nef/mesh/edge_order.h"
 
 namespace nef {
 namespace {
@@ -179,23 +178,6 @@ SurfaceContacts::SurfaceContacts(const MeshSurface& surface, const Monitor& moni
       patches_(surface, monitor),
       monitor_(monitor) {}
 
-// Most meshes meet in nothing but shared edges of two faces, and need no list of them.
-const std::vector<SurfaceContacts::HalfEdge>& SurfaceContacts::half_edges() const {
-  std::call_once(half_edges_once_, [this] {
-    const std::span<const Triangle> triangles = triangles_;
-    half_edges_.reserve(3 * triangles.size());
-    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint32_t u = triangles[t][i];
-        const std::uint32_t v = triangles[t][(i + 1) % 3];
-        half_edges_.push_back({edge_key(u, v), t, triangles[t][(i + 2) % 3], u < v ? 1 : -1});
-      }
-    }
-    sort_by_pair(half_edges_, points_.size());
-  });
-  return half_edges_;
-}
-
 // The side of a triangle's plane on which a place lies. Corners of a planar face lie in it by definition, which spares
 // the exact arithmetic that finding a zero costs.
 int SurfaceContacts::side(std::uint32_t triangle, std::uint32_t place) const {
@@ -204,11 +186,16 @@ int SurfaceContacts::side(std::uint32_t triangle, std::uint32_t place) const {
   return points_.orientation(t[0], t[1], t[2], place, monitor_);
 }
 
-std::span<const SurfaceContacts::HalfEdge> SurfaceContacts::around(std::uint32_t u, std::uint32_t v) const {
-  const std::uint64_t key = edge_key(u, v);
-  const auto less = [](const HalfEdge& a, const HalfEdge& b) { return a.key < b.key; };
-  const auto [first, last] = std::equal_range(half_edges().begin(), half_edges().end(), HalfEdge{key, 0, 0, 0}, less);
-  return {first, last};
+// All triangles at an edge, in their order; they are among those at either end, of which the one with fewer is asked.
+std::vector<SurfaceContacts::HalfEdge> SurfaceContacts::around(std::uint32_t u, std::uint32_t v) const {
+  if (patches_.stars().star(v).size() < patches_.stars().star(u).size()) std::swap(u, v);
+  const int leaving = u < v ? 1 : -1;
+  std::vector<HalfEdge> result;
+  for (const VertexStars::Wedge& wedge : patches_.stars().star(u)) {
+    if (wedge.from == v) result.push_back({wedge.triangle, wedge.to, leaving});
+    if (wedge.to == v) result.push_back({wedge.triangle, wedge.from, -leaving});
+  }
+  return result;
 }
 
 SurfaceContacts::Around SurfaceContacts::around_segment(std::uint32_t u, std::uint32_t v,
@@ -268,26 +255,32 @@ SurfaceContacts::Around SurfaceContacts::around_segment(std::uint32_t u, std::ui
 
 void SurfaceContacts::for_each_bad_edge(
     const std::function<bool(std::uint32_t, std::uint32_t, std::span<const std::uint32_t>)>& visit) const {
-  const std::vector<HalfEdge>& edges = half_edges();
-  for (std::size_t first = 0; first < edges.size();) {
-    std::size_t last = first;
-    int balance = 0;
-    std::vector<Wing> wings;
-    std::vector<std::uint32_t> triangles;
-    while (last < edges.size() && edges[last].key == edges[first].key) {
-      balance += edges[last].direction;
-      ++last;
+  struct Spoke {
+    std::uint32_t to = 0;  // the larger end of the edge
+    HalfEdge half;
+  };
+  std::vector<Spoke> spokes;
+  for (std::uint32_t u = 0; u < points_.size(); ++u) {
+    spokes.clear();
+    for (const VertexStars::Wedge& wedge : patches_.stars().star(u)) {
+      if (wedge.from > u) spokes.push_back({wedge.from, {wedge.triangle, wedge.to, 1}});
+      if (wedge.to > u) spokes.push_back({wedge.to, {wedge.triangle, wedge.from, -1}});
     }
-    if (last - first > 2 && balance == 0) {
-      for (std::size_t i = first; i < last; ++i) {
-        wings.push_back({edges[i].apex, edges[i].direction});
-        triangles.push_back(edges[i].triangle);
+    std::stable_sort(spokes.begin(), spokes.end(), [](const Spoke& a, const Spoke& b) { return a.to < b.to; });
+    for (std::size_t first = 0, last = 0; first < spokes.size(); first = last) {
+      int balance = 0;
+      for (; last < spokes.size() && spokes[last].to == spokes[first].to; ++last)
+        balance += spokes[last].half.direction;
+      if (last - first <= 2 || balance != 0) continue;
+      std::vector<Wing> wings;
+      std::vector<std::uint32_t> triangles;
+      for (const Spoke& spoke : std::span(spokes).subspan(first, last - first)) {
+        wings.push_back({spoke.half.apex, spoke.half.direction});
+        triangles.push_back(spoke.half.triangle);
       }
-      const auto u = static_cast<std::uint32_t>(edges[first].key >> 32U);
-      const auto v = static_cast<std::uint32_t>(edges[first].key & 0xffffffffU);
+      const std::uint32_t v = spokes[first].to;
       if (!around_segment(u, v, wings).separates && !visit(u, v, triangles)) return;
     }
-    first = last;
   }
 }
 

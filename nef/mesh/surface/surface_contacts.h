@@ -6,7 +6,6 @@
 #include <array>
 #include <cstdint>
 #include <functional>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <vector>
@@ -61,8 +60,8 @@ class SurfaceContacts {
   [[nodiscard]] Around around_segment(std::uint32_t u, std::uint32_t v, std::span<const Wing> wings) const;
 
  private:
+  // A triangle at an edge.
   struct HalfEdge {
-    std::uint64_t key = 0;  // smaller vertex, larger vertex
     std::uint32_t triangle = 0;
     std::uint32_t apex = 0;
     int direction = 0;  // +1 if the triangle runs from the smaller to the larger vertex
@@ -80,8 +79,7 @@ class SurfaceContacts {
   [[nodiscard]] Kind classify_neighbours(std::uint32_t t, std::uint32_t u, std::size_t t_free,
                                          std::size_t u_free) const;
   [[nodiscard]] Kind resolve_segment(std::uint32_t t, Edge t_edge, std::uint32_t u, Edge u_edge) const;
-  [[nodiscard]] const std::vector<HalfEdge>& half_edges() const;
-  [[nodiscard]] std::span<const HalfEdge> around(std::uint32_t u, std::uint32_t v) const;
+  [[nodiscard]] std::vector<HalfEdge> around(std::uint32_t u, std::uint32_t v) const;
   bool add_wings(std::uint32_t triangle, Edge own, Edge along, bool second, std::vector<Wing>& wings) const;
   [[nodiscard]] bool same_direction(Edge a, Edge b) const;
   [[nodiscard]] bool turned_alike(const Triangle& a, const Triangle& b) const;
@@ -93,8 +91,6 @@ class SurfaceContacts {
   std::span<const std::uint32_t> face_of_;
   SurfacePatches patches_;
   Monitor monitor_;
-  mutable std::once_flag half_edges_once_;
-  mutable std::vector<HalfEdge> half_edges_;  // sorted by key; made when first asked for
 };
 
 /// Two faces that meet otherwise than in common vertices and edges, f < g, or one that meets itself, f == g.

@@ -6,26 +6,23 @@
 namespace nef {
 
 VertexStars::VertexStars(const MeshPoints& points, std::span<const Triangle> triangles)
-    : points_(points), flat_(points.size(), 0) {
-  std::vector<std::uint32_t> begin(points.size() + 1, 0);
+    : points_(points), begin_(points.size() + 1, 0), wedges_(3 * triangles.size()), flat_(points.size(), 0) {
   for (const Triangle& t : triangles) {
-    for (const std::uint32_t v : t) ++begin[v + 1];
+    for (const std::uint32_t v : t) ++begin_[v + 1];
   }
-  for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
-  std::vector<Wedge> wedges(3 * triangles.size());
+  for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
   std::vector<Turns> turns;
   turns.reserve(triangles.size());
-  std::vector<std::uint32_t> at(begin.begin(), begin.end() - 1);
+  std::vector<std::uint32_t> at(begin_.begin(), begin_.end() - 1);
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     const Triangle& t = triangles[i];
-    for (std::size_t k = 0; k < 3; ++k) wedges[at[t[k]]++] = {i, t[(k + 1) % 3], t[(k + 2) % 3]};
+    for (std::size_t k = 0; k < 3; ++k) wedges_[at[t[k]]++] = {i, t[(k + 1) % 3], t[(k + 2) % 3]};
     turns.push_back(points.filtered_turns(t[0], t[1], t[2]));
   }
   for (std::uint32_t v = 0; v < flat_.size(); ++v) {
-    const std::span<const Wedge> star = std::span(wedges).subspan(begin[v], begin[v + 1] - begin[v]);
-    if (!is_closed(star)) {
+    if (!is_closed(star(v))) {
       all_closed_ = false;
-    } else if (is_flat(v, star, turns)) {
+    } else if (is_flat(v, star(v), turns)) {
       flat_[v] = 1;
     }
   }
@@ -35,14 +32,16 @@ bool VertexStars::is_closed(std::span<const Wedge> star) {
   constexpr std::size_t kFew = 16;  // edges that are compared with each other
   if (star.size() > kFew) return is_closed_wide(star);
   for (std::size_t i = 0; i < star.size(); ++i) {
-    std::size_t arrivals = 0;
-    for (std::size_t j = 0; j < star.size(); ++j) {
-      if (j != i && star[j].from == star[i].from) return false;
-      if (star[j].to != star[i].from) continue;
-      if (star[j].from == star[i].to) return false;  // the same corners, turned over
-      ++arrivals;
+    unsigned departures = 0;  // counted without branches, which nobody could foresee
+    unsigned arrivals = 0;
+    unsigned turned_over = 0;  // triangles of the same corners
+    for (const Wedge& other : star) {
+      const auto arrives = static_cast<unsigned>(other.to == star[i].from);
+      departures += static_cast<unsigned>(other.from == star[i].from);
+      arrivals += arrives;
+      turned_over += arrives & static_cast<unsigned>(other.from == star[i].to);
     }
-    if (arrivals != 1) return false;
+    if (departures != 1 || arrivals != 1 || turned_over != 0) return false;
   }
   return true;
 }

@@ -24,9 +24,21 @@ class VertexStars {
  public:
   using Triangle = std::array<std::uint32_t, 3>;
 
+  /// A triangle at a vertex.
+  struct Wedge {
+    std::uint32_t triangle = 0;
+    std::uint32_t from = 0;  ///< the end of the edge that the triangle leaves the vertex by
+    std::uint32_t to = 0;    ///< and of the one that it comes back by
+  };
+
   /// Triangles of points, none degenerate. Both must outlive this object. O(n log n), for a bounded number of triangles
   /// around a vertex O(n).
   VertexStars(const MeshPoints& points, std::span<const Triangle> triangles);
+
+  /// The triangles at a vertex, in their order.
+  [[nodiscard]] std::span<const Wedge> star(std::uint32_t vertex) const {
+    return std::span(wedges_).subspan(begin_[vertex], begin_[vertex + 1] - begin_[vertex]);
+  }
 
   /// True if all vertices are closed.
   [[nodiscard]] bool all_closed() const { return all_closed_; }
@@ -43,11 +55,6 @@ class VertexStars {
   }
 
  private:
-  struct Wedge {
-    std::uint32_t triangle;
-    std::uint32_t from;  // the edge that the triangle leaves the vertex by
-    std::uint32_t to;    // and the one that it comes back by
-  };
   // How a triangle turns along each axis, as far as doubles tell.
   using Turns = std::array<std::int8_t, 3>;
 
@@ -58,6 +65,8 @@ class VertexStars {
                                          bool counterclockwise) const;
 
   const MeshPoints& points_;
+  std::vector<std::uint32_t> begin_;  // of each point, in wedges_; and the end
+  std::vector<Wedge> wedges_;
   std::vector<std::uint8_t> flat_;  // of each point
   bool all_closed_ = true;
 };

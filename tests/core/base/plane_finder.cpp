@@ -2,8 +2,10 @@
 //
 // Planes through three points are those of their exact normals, however long the numbers are.
 #include <rapidcheck.h>
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -19,12 +21,21 @@ Rational power_of(int base, int exponent) {
   return exponent < 0 ? Rational(1 / result) : result;
 }
 
+Integer integer_of_bits(int bits) {
+  constexpr int kWord = 62;
+  Integer result = 0;
+  for (; bits > 0; bits -= kWord) {
+    const std::int64_t limit = std::int64_t{1} << std::min(bits, kWord);
+    result = result * Integer(limit) + Integer(*rc::gen::inRange<std::int64_t>(-limit + 1, limit));
+  }
+  return result;
+}
+
 // Integers of so many bits, over powers of ten or two, as files have them: a common denominator of 1 to 2^90.
 Rational3 random_point(int bits, int base, int places) {
   Rational3 result;
   for (Rational& x : result) {
-    const std::int64_t limit = std::int64_t{1} << bits;
-    x = Rational(Integer(*rc::gen::inRange<std::int64_t>(-limit + 1, limit)));
+    x = Rational(integer_of_bits(bits));
     x *= power_of(base, -*rc::gen::inRange(0, places + 1));
   }
   return result;
@@ -41,8 +52,8 @@ PlaneId expected(PlaneTable& planes, const std::array<Rational3, 3>& t) {
 TEST_CASE("planes of triangles are those of their exact normals") {
   CHECK(rc::check("short and long numbers", [] {
     const int base = *rc::gen::element(2, 10);
-    const int bits = *rc::gen::element(2, 8, 24, 31, 32, 40, 53, 61, 62);
-    const int places = *rc::gen::element(0, 1, 7, 12, 18, 30, 53, 90);
+    const int bits = *rc::gen::element(2, 8, 24, 31, 32, 40, 53, 61, 62, 64, 80, 125, 126, 130);
+    const int places = *rc::gen::element(0, 1, 7, 12, 18, 19, 30, 53, 64, 90);
     std::array<Rational3, 3> triangle;
     for (Rational3& point : triangle) point = random_point(bits, base, places);
     // Next to each other, as the corners of a face are; and on one line.
@@ -67,10 +78,11 @@ TEST_CASE("planes of triangles are those of their exact normals") {
 }
 
 TEST_CASE("planes at the limits of machine integers") {
-  // Widths of differences that add up to 62 and 63 bits, numbers of 61 and 62, denominators of 61 and 62.
+  // Widths of differences that add up to 62 and 63 bits, numbers of 61 and 62 and of 125 to 127, denominators of 61, 62
+  // and 64.
   const auto n = [](int bits) { return Rational(power_of(2, bits) - 1); };
-  for (const int bits : {30, 31, 32, 60, 61, 62}) {
-    for (const int below : {0, 1, 30, 61, 62}) {
+  for (const int bits : {30, 31, 32, 60, 61, 62, 63, 64, 94, 95, 125, 126, 127}) {
+    for (const int below : {0, 1, 30, 61, 62, 63, 64}) {
       const std::array<Rational3, 3> triangle{
           Rational3{n(bits), -n(bits), n(bits)},
           Rational3{n(bits) - n(31), -n(bits) + n(30), n(bits) - 1 / power_of(2, below)},
@@ -82,6 +94,74 @@ TEST_CASE("planes at the limits of machine integers") {
       CHECK(PlaneFinder().through(planes, points, ids[0], ids[1], ids[2]) == expected(planes, triangle));
     }
   }
+}
+
+TEST_CASE("planes of sides of up to 64 bits") {
+  // The parts of the normal are differences of products of 126 bits, and longer.
+  const auto n = [](int bits) { return Rational(power_of(2, bits) - 1); };
+  for (const int first : {61, 62, 63, 64}) {
+    for (const int second : {61, 62, 63, 64}) {
+      for (const Rational& scale : {Rational(1), power_of(10, -19), power_of(2, -64)}) {
+        std::array<Rational3, 3> triangle{Rational3{5, -7, 11}, Rational3{5 + n(first), -7 - n(first), 11 + n(first)},
+                                          Rational3{5 + n(second), -7 + n(second), 11 - n(second)}};
+        for (Rational3& point : triangle) {
+          for (Rational& x : point) x *= scale;
+        }
+        PointTable points;
+        std::array<PointId, 3> ids;
+        for (std::size_t k = 0; k < 3; ++k) ids[k] = points.push(triangle[k]);
+        PlaneTable planes;
+        CHECK(PlaneFinder().through(planes, points, ids[0], ids[1], ids[2]) == expected(planes, triangle));
+      }
+    }
+  }
+}
+
+TEST_CASE("points have the least common denominator of their coordinates, of one word or more") {
+  CHECK(rc::check("fractions", [] {
+    const int base = *rc::gen::element(2, 10);
+    const Rational3 point =
+        random_point(*rc::gen::element(1, 31, 62, 63, 64, 65, 130), base, *rc::gen::element(0, 18, 19, 20, 63, 64, 65));
+    PointTable points;
+    const PointId id = points.push(point);
+    RC_ASSERT(points.rational(id) == point);
+    Integer common = 1;
+    for (const Rational& x : point) common = lcm(common, x.get_den());
+    RC_ASSERT(mpz_cmp(points.coordinate(id, 3), common.get_mpz_t()) == 0);
+    for (std::size_t i = 0; i < 3; ++i) {
+      // Two units, and what quotients of small numbers lose (PointTable).
+      RC_ASSERT(abs(Rational(points.approximate(id)[i]) - point[i]) <= abs(point[i]) * Rational(0x1p-51));
+    }
+  }));
+}
+
+TEST_CASE("doubles of planes are the coefficients, cut off after 53 bits") {
+  CHECK(rc::check("coefficients of any length", [] {
+    std::array<Integer, 4> row;
+    for (Integer& x : row)
+      x = integer_of_bits(*rc::gen::element(0, 1, 11, 53, 54, 63, 64, 65, 120, 128, 129, 1000, 1100));
+    if (row[0] == 0 && row[1] == 0 && row[2] == 0) return;
+    PlaneTable planes;
+    const PlaneId plane = planes.intern(row[0], row[1], row[2], row[3], 0);
+    long top = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (planes.coefficient(plane, i).sign() != 0)
+        top = std::max(top, static_cast<long>(mpz_sizeinbase(planes.coefficient(plane, i), 2)));
+    }
+    std::array<double, 4> wanted{};
+    bool lost = false;
+    for (std::size_t i = 0; i < 4; ++i) {
+      long exponent = 0;
+      const double mantissa = mpz_get_d_2exp(&exponent, planes.coefficient(plane, i));
+      const long shift = exponent - top;
+      wanted[i] = shift > 1023    ? std::copysign(HUGE_VAL, mantissa)
+                  : shift < -1060 ? 0
+                                  : std::ldexp(mantissa, static_cast<int>(shift));
+      lost = lost || (i < 3 && mantissa != 0 && std::fabs(wanted[i]) < 0x1p-1000);
+    }
+    if (lost) wanted[3] = HUGE_VAL;
+    RC_ASSERT(planes.approximate(plane) == wanted);
+  }));
 }
 
 }  // namespace nef

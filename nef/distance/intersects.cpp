@@ -101,7 +101,6 @@ struct Side {
       boxes.push_back(edge_box(c, h));
     }
     edge_tree = BoxTree(boxes);
-    edge_boxes = std::move(boxes);
     boxes.clear();
     for (const Facet& facet : c.facets) {
       boxes.push_back(facet_box(c, facet));
@@ -132,8 +131,7 @@ struct Side {
   Polyhedron set;
   const Complex& c;
   std::vector<Rational3> points;
-  std::vector<EdgeEnds> edges, bare;  // bare edges bound no facet
-  std::vector<Box> edge_boxes;
+  std::vector<EdgeEnds> edges, bare;     // bare edges bound no facet
   std::optional<CrossingFilter> filter;  // once the points are known
   BoxTree edge_tree, facet_tree;
   std::unordered_map<std::size_t, BoxTree> trees;  // of facets with many corners
@@ -143,21 +141,10 @@ struct Side {
 };
 
 // Calls visit(edge, facet) for pairs of an edge of one side, moved, and a facet of the other one whose boxes meet,
-// until it returns false. Parts of the tree of edges go where the tree of facets has nothing.
+// until it returns false.
 template <typename Visit>
 void for_each_near_pair(const Side& own, const std::array<double, 3>& by, const Side& other, Visit&& visit) {
-  const MovedBoxes meet(own.bounds, by);
-  bool goes_on = true;
-  const auto is_near = [&](const Box& box) {
-    bool any = false;
-    other.facet_tree.for_each_if([&](const Box& of) { return goes_on && !any && meet(box, of); },
-                                 [&](std::uint32_t) { any = true; });
-    return any;
-  };
-  own.edge_tree.for_each_if(is_near, [&](std::uint32_t e) {
-    other.facet_tree.for_each_if([&](const Box& of) { return goes_on && meet(own.edge_boxes[e], of); },
-                                 [&](std::uint32_t f) { goes_on = goes_on && visit(e, f); });
-  });
+  own.edge_tree.for_each_pair_with(other.facet_tree, MovedBoxes(own.bounds, by), visit);
 }
 
 // The planes of a complex, moved to the origin, in a common table: equal where normals are.

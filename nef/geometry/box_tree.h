@@ -123,6 +123,41 @@ class BoxTree {
     }
   }
 
+  /// Calls visit(index of box, index of box of the other tree) for every two that meet(own box, other box) takes, which
+  /// must take two boxes if it takes two inside them, until it returns false. Descends into pairs of nodes. In an order
+  /// that depends only on the boxes.
+  template <typename Meet, typename Visit>
+  void for_each_pair_with(const BoxTree& other, Meet&& meet, Visit&& visit) const {
+    if (nodes_.empty() || other.nodes_.empty()) return;
+    std::array<std::array<std::uint32_t, 2>, 3 * 2 * kDeepest> stack;
+    std::size_t depth = 0;
+    const auto push = [&](std::uint32_t m, std::uint32_t n) {
+      if (meet(nodes_[m].box, other.nodes_[n].box)) stack[depth++] = {m, n};
+    };
+    push(0, 0);
+    while (depth > 0) {
+      const auto [m, n] = stack[--depth];
+      const Node& a = nodes_[m];
+      const Node& b = other.nodes_[n];
+      if (a.count > 0 && b.count > 0) {
+        for (std::uint32_t i = a.first; i < a.first + a.count; ++i) {
+          if (!meet(boxes_[i], b.box)) continue;
+          for (std::uint32_t j = b.first; j < b.first + b.count; ++j) {
+            if (meet(boxes_[i], other.boxes_[j]) && !visit(order_[i], other.order_[j])) return;
+          }
+        }
+      } else if (a.count > 0) {
+        for (const std::uint32_t j : {1U, 0U}) push(m, b.first + j);
+      } else if (b.count > 0) {
+        for (const std::uint32_t i : {1U, 0U}) push(a.first + i, n);
+      } else {
+        for (const std::uint32_t i : {1U, 0U}) {
+          for (const std::uint32_t j : {1U, 0U}) push(a.first + i, b.first + j);
+        }
+      }
+    }
+  }
+
   [[nodiscard]] std::size_t size() const { return order_.size(); }
   /// The box around everything; empty for an empty tree.
   [[nodiscard]] Box bounds() const { return nodes_.empty() ? Box{} : nodes_[0].box; }

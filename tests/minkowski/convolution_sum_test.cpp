@@ -268,6 +268,19 @@ TEST_CASE("convolution: any number of threads gives the same complex", "[threads
                     nef::test::set("box(0,0,0,4,4,4)"));
 }
 
+// Where parts have coplanar and coaxial faces, most points at which facets meet lie in the middle of a face or an edge
+// of the sum, and nothing has to be asked about the regions around them.
+TEST_CASE("convolution: few regions of coplanar and coaxial parts are put to the definition") {
+  const Polyhedron gear = nef::from_mesh(nef::test::extruded_part(nef::test::gear_outline(8, 9, 1.2), 6));
+  MinkowskiOptions options;
+  options.strategy = UnionStrategy::kConvolution;
+  MinkowskiReport report;
+  const Polyhedron sum = valid(minkowski_sum(gear, gear, options, &report), "sum");
+  CHECK(nef::equal(sum, by_cells(gear, gear)));
+  CHECK(report.convolution_points > 300);
+  CHECK(report.convolution_regions * 2 < report.convolution_points);
+}
+
 // What is chosen without being told. Parts have parallel facets of many pieces.
 TEST_CASE("convolution: the default takes it for solids, but not for two convex ones") {
   const Polyhedron ring = nef::from_mesh(nef::test::turned_part(nef::test::kBushing, 12, 0));

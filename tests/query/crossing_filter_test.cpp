@@ -75,4 +75,43 @@ TEST_CASE("crossing filter: what is sure is so") {
   CHECK(told[2] > 0);
 }
 
+// A plate with 120 teeth of unequal height, oblique in space: its facets are asked by rows.
+TEST_CASE("crossing filter: facets with many corners are told by rows") {
+  std::vector<Rational3> plate;
+  std::string comb = "hull(0,0,0, 240,0,240, 240,-2,240, 0,-2,0)";
+  for (int i = 0; i < 120; ++i) {
+    const std::string from = std::to_string(2 * i);
+    const std::string to = std::to_string(2 * i + 2);
+    const std::string tip = std::to_string(2 * i + 1);
+    comb += " + hull(" + from + ",0," + from + ", " + to + ",0," + to + ", " + tip + "," +
+            std::to_string(3 + i * 7 % 5) + "," + tip + ")";
+  }
+  const Polyhedron facet = set(comb);
+  const nef::Complex& c = facet.complex();
+  REQUIRE(c.facet_count() == 1);
+  for (const nef::VertexId v : c.vertex_ids()) plate.push_back(c.points.rational(nef::point_of(v)));
+  REQUIRE(plate.size() > 200);
+  const nef::CrossingFilter filter(c, plate);
+  std::array<int, 3> told{};
+  nef::test::check("segments", 300, [&] {
+    const Rational x(*rc::gen::inRange(-3, 730), 3);
+    const Rational y(*rc::gen::inRange(-10, 30), 3);
+    const Rational3 from = {x, y, Rational(x - *rc::gen::inRange(1, 4))};
+    const Rational3 to = {x, Rational(y + Rational(*rc::gen::inRange(-2, 3), 7)),
+                          Rational(x + *rc::gen::inRange(0, 3))};
+    const EdgeCrossing answer = filter.ask(nef::FacetId{0U}, near(from), near(to));
+    ++told[static_cast<std::size_t>(answer)];
+    if (answer == EdgeCrossing::kUnsure) return;
+    const Polyhedron common = nef::intersect(facet, nef::make_segment(from, to));
+    RC_ASSERT(common.is_empty() == (answer == EdgeCrossing::kApart));
+    if (answer == EdgeCrossing::kApart) return;
+    const Rational3 at = common.complex().points.rational(nef::PointId{0U});
+    RC_ASSERT(nef::locate(facet, at).kind == nef::Location::Kind::kFacet);
+  });
+  if (nef::kFastPaths) {
+    CHECK(told[0] > 30);
+    CHECK(told[1] > 30);
+  }
+}
+
 }  // namespace

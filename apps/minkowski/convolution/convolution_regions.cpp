@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The regions around all candidate points are joined by union-find over the intervals that lead from one to another.
-// Regions just behind a facet are inside; one point of each region that is left is tested by the definition, in blocks,
-// on several threads. Then the boundary gets its marks, if the sum need not be closed (`BoundaryMarker`), and the
-// points become vertices of a complex.
+// Regions just behind a facet are inside, and so are regions around a point that surely is; one point of each region
+// that is left is tested by the definition, in blocks, on several threads. Then the boundary gets its marks, if the sum
+// need not be closed (`BoundaryMarker`), and the points become vertices of a complex.
 #include "apps/minkowski/convolution/convolution_regions.h"
 
 #include <algorithm>
@@ -82,6 +82,33 @@ Regions joined_regions(const ConvolutionFacets& facets, const SurvivingIntervals
   return regions;
 }
 
+// An sface of a vertex.
+struct RegionPlace {
+  std::uint32_t vertex = 0, sface = 0;
+};
+
+// For each place whether its vertex surely lies in the inside of the sum: then so does all that is around it. In
+// doubles, without a point of the region, and without an exact question. Neighbours often have a crossing in common.
+std::vector<std::uint8_t> surely_inside(const ConvolutionFacets& facets, const SumMembership& membership,
+                                        const std::vector<RegionVertex>& vertices,
+                                        const std::vector<RegionPlace>& places, const Monitor& monitor) {
+  constexpr std::size_t kChunk = 64;
+  std::vector<std::uint8_t> result(places.size(), 0);
+  parallel_for((places.size() + kChunk - 1) / kChunk, monitor, [&](std::size_t chunk, const Monitor& own) {
+    IntersectionQuery::Crossings recent;
+    const std::size_t first = chunk * kChunk;
+    for (std::size_t k = first; k < std::min(places.size(), first + kChunk); ++k) {
+      if (k > first && places[k].vertex == places[k - 1].vertex) {
+        result[k] = result[k - 1];
+        continue;
+      }
+      const Approximation3 x = near_point(facets.points, vertices[places[k].vertex].point);
+      result[k] = membership.surely_in_inside(x, recent, true, own) ? 1 : 0;
+    }
+  });
+  return result;
+}
+
 struct RegionsInside {
   std::vector<std::uint8_t> inside;  // of each sface
   std::size_t tested = 0;            // regions
@@ -98,26 +125,37 @@ RegionsInside regions_inside(const ConvolutionFacets& facets, FacetPyramids& pyr
       if (v.map.sfaces[f].mark != 0) state[regions.same.find(regions.first[i] + f)] = kIn;
     }
   }
+  std::vector<RegionPlace> places;
+  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+    if (vertices[i].is_plain) continue;  // regions of such points alone make no difference
+    for (std::uint32_t f = 0; f < vertices[i].map.sfaces.size(); ++f) {
+      std::uint8_t& of_region = state[regions.same.find(regions.first[i] + f)];
+      if (of_region != kUnknown) continue;
+      of_region = kAsked;
+      places.push_back({i, f});
+    }
+  }
+  const std::vector<std::uint8_t> inside = surely_inside(facets, membership, vertices, places, monitor);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (inside[k] != 0) state[regions.same.find(regions.first[places[k].vertex] + places[k].sface)] = kIn;
+  }
   struct Question {
     std::uint32_t region = 0;
     Rational3 point;
   };
   std::vector<Question> questions;
-  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-    const RegionVertex& v = vertices[i];
-    for (std::uint32_t f = 0; f < v.map.sfaces.size(); ++f) {
-      const std::uint32_t region = regions.same.find(regions.first[i] + f);
-      if (state[region] != kUnknown) continue;
-      state[region] = kAsked;
-      const Direction into =
-          v.map.view().trivial() ? Direction::exact(1, 0, 0) : direction_into(facets.planes, v.map.view(), f, monitor);
-      Rational3 point = pyramids.point_towards(v.point, into);
-      const Double3 near = nearest_doubles(point);
-      if (facets.covered.cover({&near, 1})) {
-        state[region] = kIn;
-      } else {
-        questions.push_back({region, std::move(point)});
-      }
+  for (const auto& [vertex, f] : places) {
+    const RegionVertex& v = vertices[vertex];
+    const std::uint32_t region = regions.same.find(regions.first[vertex] + f);
+    if (state[region] != kAsked) continue;
+    const Direction into =
+        v.map.view().trivial() ? Direction::exact(1, 0, 0) : direction_into(facets.planes, v.map.view(), f, monitor);
+    Rational3 point = pyramids.point_towards(v.point, into);
+    const Double3 near = nearest_doubles(point);
+    if (facets.covered.cover({&near, 1})) {
+      state[region] = kIn;
+    } else {
+      questions.push_back({region, std::move(point)});
     }
   }
   constexpr std::size_t kBlock = 64;
@@ -164,6 +202,7 @@ Complex complex_of(const ConvolutionFacets& facets, PlaneTable& planes, const st
   ComplexBuilder builder(planes, monitor);
   Arrangement drawing;
   for (const RegionVertex& v : vertices) {
+    if (v.is_plain) continue;
     const auto is_inside = [](const SFace& f) { return f.mark != 0; };
     if (is_closed && std::all_of(v.map.sfaces.begin(), v.map.sfaces.end(), is_inside)) continue;
     drawing.load(planes, v.map.view());

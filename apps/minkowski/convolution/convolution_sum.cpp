@@ -26,29 +26,6 @@ bool have_closed_convolution(const Polyhedron& a, const Polyhedron& b) {
 
 namespace {
 
-// True if all items of the boundary have the inside of the set on one side and nothing of it on another.
-bool is_bounded_by_facets(const Complex& c) {
-  for (const Facet& f : c.facets) {
-    if ((c.volumes[f.volume_above].mark != 0) == (c.volumes[f.volume_below].mark != 0)) return false;
-  }
-  for (const VertexId v : c.vertex_ids()) {
-    const SphereMapView map = c.sphere_map(v);
-    if (map.trivial()) return false;
-    for (const SVertex& s : map.svertices) {
-      if (s.out == kNone) return false;
-    }
-  }
-  return true;
-}
-
-// With points, segments and facets that are missing inside: they change no sum of sets that lie in the closures of
-// their interiors (see minkowski_sum.cpp).
-Polyhedron filled(const Polyhedron& a, const Monitor& monitor) {
-  return a.is_closed() || is_bounded_by_facets(a.complex())
-             ? a
-             : unite(a, interior(regularize(a, monitor), monitor), monitor);
-}
-
 // How many pairs of facets of the convolution lie in one plane upon each other, since they are sums of pieces of the
 // same two parallel facets. Only marks need them; else the sum of the two facets is one polygon. O(facets of A times
 // facets of B).
@@ -68,18 +45,18 @@ constexpr std::size_t kMostStackedPairs = std::size_t{1} << 22U;
 
 }  // namespace
 
-std::optional<Polyhedron> convolution_sum(const Polyhedron& set_a, const Polyhedron& set_b, bool only_if_fast,
+std::optional<Polyhedron> convolution_sum(Summand& summand_a, Summand& summand_b, bool only_if_fast,
                                           ConvolutionReport& report, const Monitor& monitor) {
   const auto decline = [&report](std::string why) {
     report.why = std::move(why);
     return std::nullopt;
   };
-  if (only_if_fast && is_convex(set_a, monitor) && is_convex(set_b, monitor))
+  if (only_if_fast && summand_a.is_convex(monitor) && summand_b.is_convex(monitor))
     return decline("both operands are convex");
-  const Polyhedron a = filled(set_a, monitor);
-  const Polyhedron b = filled(set_b, monitor);
-  const SolidFeatures of_a(a, monitor);
-  const SolidFeatures of_b(b, monitor);
+  const Polyhedron& a = summand_a.filled(monitor);
+  const Polyhedron& b = summand_b.filled(monitor);
+  const SolidFeatures& of_a = summand_a.features(monitor);
+  const SolidFeatures& of_b = summand_b.features(monitor);
   if (only_if_fast && marks_of_sum(of_a.marks(), of_b.marks()) == BoundaryMarks::kMixed) {
     const std::size_t stacked = stacked_pairs(of_a, of_b, monitor);
     if (stacked > kMostStackedPairs)
@@ -94,11 +71,12 @@ std::optional<Polyhedron> convolution_sum(const Polyhedron& set_a, const Polyhed
   if (!is_closed && !(of_a.has_plain_facets() && of_b.has_plain_facets())) {
     return decline("a single point in a facet is marked unlike it");
   }
-  if (!is_closed && !is_convex(closure(a, monitor), monitor) && !is_convex(closure(b, monitor), monitor)) {
+  if (!is_closed && !summand_a.has_convex_closure(monitor) && !summand_b.has_convex_closure(monitor)) {
     if (!of_a.has_simple_edges() || !of_b.has_simple_edges()) {
       return decline("an edge has several wedges, neither operand is convex, and one is not closed");
     }
-    saddles = saddle_points(a, b, membership, facets.covered, monitor);
+    saddles =
+        saddle_points(summand_a.saddles(monitor), summand_b.saddles(monitor), membership, facets.covered, monitor);
   }
   // Shares of the time are measured, for the bar only.
   constexpr double kOfIntervals = 0.2;

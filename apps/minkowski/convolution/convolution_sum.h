@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "apps/minkowski/convolution/summand.h"
 #include "nef/base/monitor.h"
 #include "nef/forward.h"
 
@@ -39,7 +40,7 @@ bool have_closed_convolution(const Polyhedron& a, const Polyhedron& b);
 /// is not between 2^-200 and 2^200 (has_moderate_size), and for these, all rare, of sets that are not closed: edges
 /// with more than one wedge where neither set is convex; a single point in a facet that is marked unlike it; a facet
 /// that is not in the set with an edge or vertex that is, and something parallel to it.
-std::optional<Polyhedron> convolution_sum(const Polyhedron& a, const Polyhedron& b, bool only_if_fast,
-                                          ConvolutionReport& report, const Monitor& monitor);
+std::optional<Polyhedron> convolution_sum(Summand& a, Summand& b, bool only_if_fast, ConvolutionReport& report,
+                                          const Monitor& monitor);
 
 }  // namespace nef::minkowski

@@ -133,7 +133,10 @@ class Search {
     rounded_ = &rounded;
     monitor_.tell_progress(kSumPhase, 4, 10);
     if (may_interlock) {
-      for (const SaddlePoint& saddle : saddle_points(a_, b_, membership_, facets_.covered, monitor_, near)) {
+      const Saddles saddles_a(a_, monitor_);
+      const Saddles saddles_b(b_, monitor_);
+      for (const SaddlePoint& saddle :
+           saddle_points(saddles_a, saddles_b, membership_, facets_.covered, monitor_, near)) {
         try_point(saddle.point);
       }
     }

@@ -40,6 +40,32 @@ bool mark_inside(SphereMapBuffer& map) {
   return std::any_of(map.sfaces.begin(), map.sfaces.end(), [](const SFace& f) { return f.mark == 0; });
 }
 
+// True if a closed sum has no vertex at a point, whichever of the regions that are not known to be inside are. One such
+// region whose border lies on one great circle is a half-space, and one with a border on two does not change along
+// the line in which their planes meet; nor does anything around a point on an edge with nothing across it.
+bool is_plain(const PlaneTable& planes, const SphereMapView& map, const Monitor& monitor) {
+  if (map.svertices.empty()) return true;
+  if (map.svertices.size() == 2 && same_direction(direction_of(planes, map.svertices[0]),
+                                                  direction_of(planes, map.svertices[1]).negated(), monitor)) {
+    return true;
+  }
+  const auto is_open = [](const SFace& f) { return f.mark == 0; };
+  const auto open = std::find_if(map.sfaces.begin(), map.sfaces.end(), is_open);
+  if (open == map.sfaces.end() || std::find_if(open + 1, map.sfaces.end(), is_open) != map.sfaces.end()) return false;
+  const auto face = static_cast<std::uint32_t>(open - map.sfaces.begin());
+  std::array<PlaneId, 2> border;
+  for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
+    const SHalfedge& half = map.shalfedges[e];
+    if (half.sface != face) continue;
+    if (map.shalfedges[e ^ 1U].sface == face) return false;
+    const auto same = [&](PlaneId p) { return p.valid() && p.row() == half.plane.row(); };
+    if (same(border[0]) || same(border[1])) continue;
+    if (border[1].valid()) return false;
+    border[border[0].valid() ? 1 : 0] = half.plane;
+  }
+  return open->entry_count == 1 && map.sloops.empty();
+}
+
 double reach_of(const FacetSegment& s) {
   double reach = 0;
   for (std::size_t i = 0; i < 3; ++i) reach = std::max(reach, std::fabs(s.to[i] - s.from[i]));
@@ -170,18 +196,22 @@ void VertexFinder::add_point(PointId point) {
 // What is put off so that several threads have something to do.
 void VertexFinder::draw_points() {
   constexpr std::size_t kChunk = 64;
-  std::vector<std::optional<SphereMapBuffer>> maps(undrawn_.size());
+  std::vector<std::optional<RegionVertex>> drawn(undrawn_.size());
   parallel_for((undrawn_.size() + kChunk - 1) / kChunk, monitor_, [&](std::size_t chunk, const Monitor& own) {
     PyramidDrawer drawer(facets_, pyramids_, own);
+    InsideSearch inside(membership_, own);
     for (std::size_t i = chunk * kChunk; i < std::min(undrawn_.size(), (chunk + 1) * kChunk); ++i) {
+      if (inside.has(near_point(facets_.points, undrawn_[i].point))) continue;
       SphereMapBuffer map = drawer.draw(undrawn_[i].facets, undrawn_[i].point);
-      if (is_of_use(undrawn_[i].point, map, own)) maps[i] = std::move(map);
+      if (!is_of_use(undrawn_[i].point, map, own)) continue;
+      const bool plain = is_closed_ && is_plain(facets_.planes, map.view(), own);
+      drawn[i] = RegionVertex{undrawn_[i].point, std::move(map), false, plain};
     }
   });
   for (std::size_t i = 0; i < undrawn_.size(); ++i) {
-    if (!maps[i]) continue;
+    if (!drawn[i]) continue;
     known_.at(undrawn_[i].point.index()).vertex = static_cast<std::uint32_t>(result_.vertices.size());
-    result_.vertices.push_back({undrawn_[i].point, *std::move(maps[i]), false});
+    result_.vertices.push_back(*std::move(drawn[i]));
   }
   undrawn_.clear();
 }
@@ -205,7 +235,7 @@ void VertexFinder::add_saddle_point(const SaddlePoint& saddle) {
     SphereMapBuffer map = PyramidDrawer(facets_, pyramids_, monitor_).draw(pyramids_.facets_at(point), point);
     mark_inside(map);
     known.vertex = static_cast<std::uint32_t>(result_.vertices.size());
-    result_.vertices.push_back({point, std::move(map), true});
+    result_.vertices.push_back({point, std::move(map), true, false});
   }
   RegionVertex& v = result_.vertices[known.vertex];
   v.is_saddle_point = true;

@@ -3,6 +3,7 @@
 // From surviving intervals to the points at which a sum may have vertices.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "apps/minkowski/convolution/marks/interlock.h"
 #include "apps/minkowski/convolution/marks/sum_membership.h"
 #include "nef/geometry/box_tree.h"
+#include "nef/number/approximation.h"
 
 namespace nef::minkowski {
 
@@ -21,6 +23,9 @@ struct RegionVertex {
   PointId point{0};
   SphereMapBuffer map;
   bool is_saddle_point = false;
+  /// All of the sum's boundary belongs to it, and it has no vertex here, whichever regions are inside: it is, or is
+  /// not, that of a plane or an edge here. Such a point only joins regions.
+  bool is_plain = false;
 };
 
 /// Two vertices at the ends of a part of a segment that nothing cuts.
@@ -35,6 +40,16 @@ struct RegionVertices {
   std::vector<RegionJoint> joints;
   std::size_t points = 0;  ///< that were located exactly
 };
+
+/// A point of a table in doubles: these are within 2^-51 of the truth, relatively.
+inline Approximation3 near_point(const PointTable& points, PointId point) {
+  Approximation3 result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double x = points.approximate(point)[i];
+    result[i] = {x, 4 * kUnit * std::fabs(x) + 1e-300};
+  }
+  return result;
+}
 
 /// The points at which intervals end, with those of their drawings that may be vertices. If the sum need not be closed,
 /// so are its saddle points and places where it may be as narrow as it can be. `tree` is over the boxes of the facets,

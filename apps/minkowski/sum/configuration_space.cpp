@@ -75,6 +75,7 @@ WithoutCells sums_without_cells(const Polyhedron& robot, std::span<const Polyhed
   const Monitor& monitor = options.monitor;
   const Polyhedron robot_inside = interior(negate(robot, monitor), monitor);
   if (robot_inside.is_empty()) return result;
+  Summand of_robot(robot_inside);
   const auto parts = static_cast<double>(obstacles.size() + 1);  // the last one: what needs cells
   const std::size_t robot_cells = insist ? 0 : estimated_cells(robot_inside.complex(), monitor);
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
@@ -86,8 +87,9 @@ WithoutCells sums_without_cells(const Polyhedron& robot, std::span<const Polyhed
     if (!insist && (cells < 2 || cells * robot_cells < kFewPairs)) continue;
     std::string why;
     const PartOfSum part(monitor, static_cast<double>(i) / parts, static_cast<double>(i + 1) / parts);
+    Summand of_obstacle(closed);
     std::optional<Polyhedron> sum =
-        sum_by_convolution(closed, robot_inside, {options.strategy, part.monitor()}, report, why);
+        sum_by_convolution(of_obstacle, of_robot, {options.strategy, part.monitor()}, report, why);
     if (sum) {
       report.choices.push_back({"convolution", std::move(why)});
       result.sums.push_back(*std::move(sum));

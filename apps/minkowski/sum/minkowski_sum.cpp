@@ -59,7 +59,9 @@ Polyhedron bounded_sum(const Polyhedron& a, const Polyhedron& b, const Minkowski
                        MinkowskiReport& report) {
   std::string why;
   if (std::optional<Polyhedron> sum = flat_sum_by_convolution(a, b, options, report)) return *std::move(sum);
-  if (std::optional<Polyhedron> sum = sum_by_convolution(a, b, options, report, why)) {
+  Summand of_a(a);
+  Summand of_b(b);
+  if (std::optional<Polyhedron> sum = sum_by_convolution(of_a, of_b, options, report, why)) {
     report.choices.push_back({"convolution", std::move(why)});
     return *std::move(sum);
   }

@@ -24,15 +24,16 @@ StrategyChoice choice_of_cells(std::size_t two_by_two, std::string why) {
 
 }  // namespace
 
-std::optional<Polyhedron> sum_by_convolution(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
+std::optional<Polyhedron> sum_by_convolution(Summand& a, Summand& b, const MinkowskiOptions& options,
                                              MinkowskiReport& report, std::string& why) {
   const bool insist = options.strategy == UnionStrategy::kConvolution;
   why = "requested";
   if (!insist && options.strategy != UnionStrategy::kAuto) return std::nullopt;
   const PhaseTimer phase(report.seconds_union, report.predicates_union, options.monitor);
-  for (const Polyhedron* set : {&a, &b}) {
-    if (has_convolution(*set) || have_closed_convolution(a, b)) continue;
-    why = std::string(set == &a ? "A" : "B") + " has parts that are not solid; then both must be closed, and one solid";
+  for (const Summand* summand : {&a, &b}) {
+    if (has_convolution(summand->set()) || have_closed_convolution(a.set(), b.set())) continue;
+    why = std::string(summand == &a ? "A" : "B") +
+          " has parts that are not solid; then both must be closed, and one solid";
     return std::nullopt;
   }
   const PartOfSum whole(phase.monitor());

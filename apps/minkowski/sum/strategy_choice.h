@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 
+#include "apps/minkowski/convolution/summand.h"
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/sum/pair_sums.h"
 
@@ -14,7 +15,7 @@ namespace nef::minkowski {
 
 /// The sum of two bounded sets without cells if the strategy is that, or lets it be chosen and it is likely to be
 /// faster; counts it in the report. `why` says why it was taken or was not.
-std::optional<Polyhedron> sum_by_convolution(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
+std::optional<Polyhedron> sum_by_convolution(Summand& a, Summand& b, const MinkowskiOptions& options,
                                              MinkowskiReport& report, std::string& why);
 
 /// The same for two sets of closed polygons in parallel planes, whose sum is a planar one, and with its entry in the

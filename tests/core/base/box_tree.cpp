@@ -60,4 +60,32 @@ TEST_CASE("trees of boxes find what overlaps, however they are split") {
   }
 }
 
+TEST_CASE("two trees of boxes find what overlaps, until the visitor has enough") {
+  std::mt19937 random(11);
+  for (const auto& [count, other_count] : {std::array{0U, 5U}, {5U, 0U}, {1U, 300U}, {300U, 3U}, {120U, 90U}}) {
+    CAPTURE(count, other_count);
+    const std::vector<Box> boxes = random_boxes(random, count);
+    const std::vector<Box> others = random_boxes(random, other_count);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      for (std::uint32_t j = 0; j < other_count; ++j) {
+        if (boxes[i].overlaps(others[j])) pairs.emplace_back(i, j);
+      }
+    }
+    const BoxTree tree(boxes);
+    const BoxTree other(others, BoxSplit::kMedians);
+    const auto meet = [](const Box& a, const Box& b) { return a.overlaps(b); };
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
+    tree.for_each_pair_with(other, meet, [&](std::uint32_t i, std::uint32_t j) {
+      found.emplace_back(i, j);
+      return true;
+    });
+    std::sort(found.begin(), found.end());
+    CHECK(found == pairs);
+    std::size_t visits = 0;
+    tree.for_each_pair_with(other, meet, [&](std::uint32_t, std::uint32_t) { return ++visits < 3; });
+    CHECK(visits == std::min<std::size_t>(pairs.size(), 3));
+  }
+}
+
 }  // namespace nef::test

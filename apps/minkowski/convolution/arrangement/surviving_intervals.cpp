@@ -56,9 +56,8 @@ class SegmentCutter {
         segments_(segments),
         at_side_(at_side),
         meeting_(meeting),
-        membership_(membership),
         passages_(passages),
-        monitor_(monitor) {}
+        inside_(membership, monitor) {}
 
   CutSegments run(std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) cut(static_cast<std::uint32_t>(i));
@@ -228,7 +227,7 @@ class SegmentCutter {
   static constexpr double kShare = 0.381966;
 
   // True if A and x - B surely have their insides in common for all x of a segment, whose ends are within `error`.
-  [[nodiscard]] bool is_in_inside(const std::array<Double3, 2>& ends, double error) {
+  bool is_in_inside(const std::array<Double3, 2>& ends, double error) {
     Approximation3 x;
     for (std::size_t i = 0; i < 3; ++i) {
       // The rounding of the middle and of the half is far below 8u of both ends.
@@ -236,15 +235,7 @@ class SegmentCutter {
       x[i].error =
           std::fabs(ends[1][i] - ends[0][i]) / 2 + error + 8 * kUnit * (std::fabs(ends[0][i]) + std::fabs(ends[1][i]));
     }
-    // A search that finds nothing takes several times as long as one that does, and as what an interval costs that is
-    // kept: where not most find something, only what was found before is tried. What is done with a chunk of segments
-    // does not depend on threads.
-    constexpr std::size_t kFree = 4;
-    const bool search = searches_ < kFree || 4 * found_ >= 3 * searches_;
-    const bool inside = membership_.surely_in_inside(x, recent_, search, monitor_);
-    searches_ += search ? 1 : 0;
-    found_ += search && inside ? 1 : 0;
-    return inside;
+    return inside_.has(x);
   }
 
   // True if what lies between the points of a cut need not be behind a facet. It is, in whatever order they come, if
@@ -345,11 +336,8 @@ class SegmentCutter {
   const std::vector<FacetSegment>& segments_;
   const Sides& at_side_;
   const MeetingFacets& meeting_;
-  const SumMembership& membership_;
   bool passages_;
-  Monitor monitor_;
-  IntersectionQuery::Crossings recent_;
-  std::size_t searches_ = 0, found_ = 0;
+  InsideSearch inside_;  // what is done with a chunk of segments does not depend on threads
   CutSegments result_;
   // Of the segment at hand.
   std::vector<Event> events_;

@@ -19,7 +19,8 @@
 #include "nef/sphere_map/sphere_geometry.h"
 
 namespace nef::minkowski {
-namespace {
+// Not anonymous: Saddles has members of these types.
+namespace interlock {
 
 // Of the boundary of a solid on the sphere around a vertex: counterclockwise about its normal.
 struct Arc {
@@ -58,6 +59,13 @@ struct Saddle {
   Direction turned_middle;
 };
 
+}  // namespace interlock
+
+namespace {
+
+using interlock::Arc;
+using interlock::NearArc;
+using interlock::Saddle;
 using Directions = std::vector<Direction>;
 
 // Of the svertices of a map, in their order.
@@ -174,13 +182,15 @@ std::vector<Saddle> saddles(const Complex& c, const Monitor& monitor) {
 bool enters(const std::vector<Direction>& normals, const Direction& from, const Direction& to, const Monitor& monitor) {
   std::vector<std::array<Integer, 2>> forms;  // of (1 - t) from + t to, at t = 0 and 1
   for (const Direction& n : normals) {
-    if (sign_of_dot(n, from, monitor) <= 0 && sign_of_dot(n, to, monitor) <= 0) return false;
+    const int at_from = sign_of_dot(n, from, monitor);
+    const int at_to = sign_of_dot(n, to, monitor);
+    if (at_from <= 0 && at_to <= 0) return false;
+    if (at_from > 0 && at_to > 0) continue;
     forms.push_back({dot(n.integers(), from.integers()), dot(n.integers(), to.integers())});
   }
   Rational low = 0;
   Rational high = 1;
   for (const auto& [first, last] : forms) {
-    if (sgn(first) > 0 && sgn(last) > 0) continue;
     Rational zero(first, first - last);
     zero.canonicalize();
     if (sgn(first) <= 0) {
@@ -228,7 +238,7 @@ int surely_cross(const NearArc& a, const NearArc& b) {
 }
 
 // True if an arc of one crosses one of the other, turned about the vertex: where both are, there is the inside of both.
-bool cross(const Saddle& s, const Saddle& t, const Monitor& monitor) {
+bool arcs_cross(const Saddle& s, const Saddle& t, const Monitor& monitor) {
   const bool are_near = kFastPaths && !s.near_arcs.empty() && !t.near_arcs.empty();
   for (std::size_t i = 0; i < s.arcs.size(); ++i) {
     for (std::size_t k = 0; k < t.arcs.size(); ++k) {
@@ -288,21 +298,22 @@ bool holds_one(const Complex& c, const Saddle& saddle, const std::vector<Directi
 
 }  // namespace
 
-std::vector<SaddlePoint> saddle_points(const Polyhedron& a, const Polyhedron& b, const SumMembership& membership,
+Saddles::Saddles(const Polyhedron& solid, const Monitor& monitor)
+    : solid_(solid), all_(std::make_shared<const std::vector<Saddle>>(saddles(solid_.complex(), monitor))) {}
+
+std::vector<SaddlePoint> saddle_points(const Saddles& a, const Saddles& b, const SumMembership& membership,
                                        const CoveredVoxels& covered, const Monitor& monitor, const NearOrigin& near) {
-  const Complex& of_a = a.complex();
-  const Complex& of_b = b.complex();
-  const std::vector<Saddle> saddles_a = saddles(of_a, monitor);
-  const std::vector<Saddle> saddles_b = saddles(of_b, monitor);
+  const Complex& of_a = a.solid().complex();
+  const Complex& of_b = b.solid().complex();
   std::vector<SaddlePoint> result;
-  for (const Saddle& s : saddles_a) {
+  for (const Saddle& s : a.all()) {
     monitor.check_interruption();
-    for (const Saddle& t : saddles_b) {
+    for (const Saddle& t : b.all()) {
       if (!near.is_all() && !near.may_hold(s.box, t.box)) continue;
       const Double3 about = {s.near[0] + t.near[0], s.near[1] + t.near[1], s.near[2] + t.near[2]};
       if (covered.cover({&about, 1})) continue;
       if (holds_one(of_a, s, t.back, monitor) || holds_one(of_b, t, s.back, monitor)) continue;
-      if (cross(s, t, monitor) || fits(of_a, s, t, monitor) || fits(of_b, t, s, monitor)) continue;
+      if (arcs_cross(s, t, monitor) || fits(of_a, s, t, monitor) || fits(of_b, t, s, monitor)) continue;
       const Rational3 p = of_a.points.rational(point_of(s.vertex));
       const Rational3 q = of_b.points.rational(point_of(t.vertex));
       const Rational3 x = {p[0] + q[0], p[1] + q[1], p[2] + q[2]};

@@ -3,12 +3,36 @@
 // Contacts of two solids that allow no motion at all.
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <vector>
+
 #include "apps/minkowski/convolution/facets/covered_voxels.h"
 #include "apps/minkowski/convolution/facets/near_origin.h"
 #include "apps/minkowski/convolution/facets/solid_features.h"
 #include "apps/minkowski/convolution/marks/sum_membership.h"
+#include "nef/polyhedron.h"
 
 namespace nef::minkowski {
+
+namespace interlock {
+struct Saddle;
+}
+
+/// The vertices around which neither a solid nor the rest of space is convex, for sums with any other one.
+class Saddles {
+ public:
+  /// Keeps a copy of the solid, which is O(1). The solid has one wedge at each edge. O(n d^3) signs for vertices of
+  /// degree d.
+  Saddles(const Polyhedron& solid, const Monitor& monitor);
+
+  [[nodiscard]] const Polyhedron& solid() const { return solid_; }
+  [[nodiscard]] const std::vector<interlock::Saddle>& all() const { return *all_; }
+
+ private:
+  Polyhedron solid_;
+  std::shared_ptr<const std::vector<interlock::Saddle>> all_;
+};
 
 /// Two solids A and x - B interlock if they touch so that each translation, however small, makes them overlap nearby,
 /// or all but those of less than three dimensions do. No facet of the reduced convolution need tell of such a point x
@@ -29,7 +53,7 @@ struct SaddlePoint {
   Rational3 point;
   std::uint8_t mark = 0;  ///< both vertices belong to their sets
 };
-std::vector<SaddlePoint> saddle_points(const Polyhedron& a, const Polyhedron& b, const SumMembership& membership,
+std::vector<SaddlePoint> saddle_points(const Saddles& a, const Saddles& b, const SumMembership& membership,
                                        const CoveredVoxels& covered, const Monitor& monitor,
                                        const NearOrigin& near = NearOrigin(HUGE_VAL));
 

@@ -41,4 +41,29 @@ class SumMembership {
   mutable std::optional<IntersectionQuery> sets_, closures_, insides_;
 };
 
+/// Asks for many points, near each other, whether they surely lie in the inside of the sum. A search that finds nothing
+/// takes several times as long as one that does, and as what a point costs that is kept: where not most find something,
+/// only what was found before is tried. Answers depend on the points asked before. Not to be shared between threads.
+class InsideSearch {
+ public:
+  /// The membership must outlive the object.
+  InsideSearch(const SumMembership& membership, const Monitor& monitor) : membership_(membership), monitor_(monitor) {}
+
+  /// True only if SumMembership::surely_in_inside is.
+  bool has(const Approximation3& x) {
+    constexpr std::size_t kFree = 4;
+    const bool search = searches_ < kFree || 4 * found_ >= 3 * searches_;
+    const bool inside = membership_.surely_in_inside(x, recent_, search, monitor_);
+    searches_ += search ? 1 : 0;
+    found_ += search && inside ? 1 : 0;
+    return inside;
+  }
+
+ private:
+  const SumMembership& membership_;
+  Monitor monitor_;
+  IntersectionQuery::Crossings recent_;
+  std::size_t searches_ = 0, found_ = 0;
+};
+
 }  // namespace nef::minkowski

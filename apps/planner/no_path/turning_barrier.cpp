@@ -127,8 +127,8 @@ std::vector<SimplexCorners> tetrahedra_of(const Polyhedron& set, const Monitor& 
 // Cuts simplices until each of them is blocked.
 class SimplexCutter {
  public:
-  SimplexCutter(PathProof& proof, const BlockingPairs& pairs, std::size_t max_parts, const Monitor& monitor)
-      : claim_(proof.claim), points_(proof.layers->points), pairs_(pairs), left_(max_parts), monitor_(monitor) {}
+  SimplexCutter(PathProof& proof, const BlockingPairs& pairs, const Monitor& monitor)
+      : claim_(proof.claim), points_(proof.layers->points), pairs_(pairs), monitor_(monitor) {}
 
   // False if that takes too many parts.
   bool cut(const std::vector<SimplexCorners>& simplices, const OrientationBox<Rational>& orientations,
@@ -214,7 +214,7 @@ class SimplexCutter {
   const PathProof::Claim& claim_;
   std::vector<Rational3>& points_;
   const BlockingPairs& pairs_;
-  std::size_t left_;
+  std::size_t left_ = 100000;
   Monitor monitor_;
   std::map<Rational3, std::uint32_t> numbers_;
 };
@@ -234,8 +234,7 @@ Rational chain_parameter_of(const Quaternion& at, const Quaternion& p, const Qua
 
 }  // namespace
 
-std::optional<PathProof> make_turning_proof(const Scene& scene, const TurningProof& found, std::size_t max_parts,
-                                            const Monitor& monitor) {
+std::optional<PathProof> make_turning_proof(const Scene& scene, const TurningProof& found, const Monitor& monitor) {
   const RotationClaim meant = rotation_claim_of(scene);
   const TurningAxis axis(scene.rotation->axis);
   PathProof proof;
@@ -245,7 +244,7 @@ std::optional<PathProof> make_turning_proof(const Scene& scene, const TurningPro
   if (!enclosures) return std::nullopt;
   const Orientations orientations = Orientations::along(meant.chain);
   const BlockingPairs pairs(proof.claim, orientations, {0, 0, 0});
-  SimplexCutter cutter(proof, pairs, max_parts, monitor);
+  SimplexCutter cutter(proof, pairs, monitor);
   const bool is_closed = !meant.places && are_proportional(meant.chain.front(), meant.chain.back());
   OrientationBox<Rational> box;
   for (std::size_t i = 0; i < found.cells.size(); ++i) {

@@ -3,7 +3,6 @@
 // Proofs for files that a robot that translates and turns about one axis has no path.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 
 #include "apps/planner/proofs/path_proof.h"
@@ -19,10 +18,9 @@ namespace nef::planner {
 /// are cut until one pair of pieces blocks each part.
 ///
 /// Nothing if both sides have no distance in some cell (contact is forbidden, say, and they are open), if only surfaces
-/// are in the way, or if it takes more than `max_parts` triangles and tetrahedra. What is returned has been checked by
+/// are in the way, or if it takes more than 10^5 triangles and tetrahedra. What is returned has been checked by
 /// complaint_about. Costs two sums and a decomposition for each cell, and some small programs for each part. Throws
 /// Interrupted if the monitor stops it, and InputError as question_of does.
-std::optional<PathProof> make_turning_proof(const Scene& scene, const TurningProof& found,
-                                            std::size_t max_parts = 50000, const Monitor& monitor = {});
+std::optional<PathProof> make_turning_proof(const Scene& scene, const TurningProof& found, const Monitor& monitor = {});
 
 }  // namespace nef::planner

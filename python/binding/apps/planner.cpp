@@ -114,13 +114,11 @@ struct TurningProofOfScene {
   // The text of the same proof as a file; None if there is none.
   [[nodiscard]] py::object text() const {
     const std::optional<plan::PathProof> found = call(kSmallCall, [self = *this](const Monitor& monitor) {
-      return plan::make_turning_proof(self.scene, self.proof, kMostParts, monitor);
+      return plan::make_turning_proof(self.scene, self.proof, monitor);
     });
     return found ? py::object(py::str(plan::proof_text(*found))) : py::none();
   }
   [[nodiscard]] std::size_t cells() const { return proof.cells.size(); }
-
-  static constexpr std::size_t kMostParts = 50000;
 };
 
 // A question about a robot that turns; the scene says where it starts and how it is turned there.

@@ -128,11 +128,5 @@ TEST_CASE("spoilt layers do not hold") {
              Contains("a point of both"));
 }
 
-TEST_CASE("few parts are too few") {
-  const Scene scene = bar_in_tube("[0, 180]", "[-3,0,0, 180]");
-  const TurningAnswer answer = find_turning_path(scene, question_of(scene));
-  CHECK_FALSE(make_turning_proof(scene, *answer.proof, 3).has_value());
-}
-
 }  // namespace
 }  // namespace nef::planner::test

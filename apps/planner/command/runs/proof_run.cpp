@@ -58,15 +58,12 @@ void write_translation_proof(const Arguments& a, const Scene& scene, const FreeS
 void write_turning_proof(const Arguments& a, const Scene& scene, const TurningAnswer& answer) {
   if (a.proof.empty()) return;
   if (answer.status == TurningAnswer::Status::kInfeasible) {
-    constexpr std::size_t kMostParts = 50000;
-    const std::size_t most = a.app->count("--max-cells") > 0 ? a.max_cells : kMostParts;
-    if (const auto proof = make_turning_proof(scene, *answer.proof, most, a.session.monitor)) {
+    if (const auto proof = make_turning_proof(scene, *answer.proof, a.session.monitor)) {
       write_file(a.proof, proof_text(*proof));
     } else {
       std::cerr << "planner: " << a.proof
-                << " was not written: start and goal are not separated by a distance, or only by "
-                << "surfaces, or it takes more than " << most
-                << " triangles (--max-cells); the report (-o FILE.json) has a proof by cells of angles\n";
+                << " was not written: no distance, or only surfaces, separate start and goal; "
+                << "the report (-o FILE.json) has a proof by cells of angles\n";
     }
     return;
   }

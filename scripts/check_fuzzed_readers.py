@@ -40,6 +40,7 @@ THROUGH = {
     "read_queries": "parse_exact_json",
     "read_camera_folder": "read_text_scene, a file each",
     "read_rotations": "parse_proof",
+    "read_layers": "parse_proof",
     "read_pose_cells": "parse_proof",
     "read_transforms": "read_json_scene",
 }

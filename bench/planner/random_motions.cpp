@@ -6,7 +6,8 @@
 //
 // A motion that is said to be free is sampled: where FCL reports a collision at a pose, Booleans of the exact sets at
 // that pose decide, because FCL calculates in doubles and counts contact. Every tenth is also decided by Booleans at
-// its start, since FCL does not notice a body inside another one. Of a motion that is said to collide, the pose is
+// its start, since FCL does not notice a body inside another one. So is the part up to which a motion is free that is
+// not free as a whole. Of a motion that is said to collide, the pose is
 // asked of FCL, and of Booleans if FCL finds nothing there, or contact is likely, or by turns. In parts that are
 // undecided the robot must turn and keep contact: FCL's distance at both ends and in the middle of the part is not more
 // than kContact, or the motion counts as unexplained. Bodies: boxes, plates, L-shapes, random polytopes and unions of
@@ -34,6 +35,7 @@ namespace {
 
 constexpr double kContact = 1e-4;      // of bodies a few units large
 constexpr unsigned kOfOneScene = 100;  // motions
+constexpr unsigned kFewer = 10;        // times fewer poses of a motion that is free in part
 
 // A body as a set for Booleans, and in pieces for the checker.
 struct Body {
@@ -309,6 +311,7 @@ class SampledMotion {
 struct Counts {
   std::array<std::size_t, 3> verdicts{};  // by MotionVerdict::Status
   std::size_t touching = 0;               // of those that are free
+  std::size_t in_part = 0;                // of the others, those that are free up to somewhere
   std::size_t poses = 0;                  // asked of FCL
   std::size_t exact = 0;                  // decided by Booleans
   std::size_t fcl_hits = 0;               // of FCL on free motions
@@ -326,21 +329,22 @@ std::string text_of(const RigidPose& pose) {
   return text;
 }
 
-void check_free(const Comparison& scene, const RigidMotion& motion, unsigned poses, Counts& counts) {
+// That no pose collides up to a parameter.
+void check_free(const Comparison& scene, const RigidMotion& motion, double until, unsigned poses, Counts& counts) {
   const SampledMotion sampled(motion);
   bool is_wrong = false;
   const auto decide = [&](double s) {
     ++counts.exact;
     RigidPose pose = motion.at(s);
     if (!scene.truly_collides(pose)) return;
-    std::cout << "false free: " << scene.name() << ", parameter " << s << " of " << text_of(motion.from()) << "to "
-              << text_of(motion.to()) << '\n';
+    std::cout << "false free: " << scene.name() << ", parameter " << s << " of " << until << " of "
+              << text_of(motion.from()) << "to " << text_of(motion.to()) << '\n';
     is_wrong = true;
   };
   if (counts.verdicts[0] % 10 == 0) decide(0);
   unsigned doubted = 0;
   for (unsigned k = 0; k <= poses; ++k) {
-    const double s = static_cast<double>(k) / poses;
+    const double s = until * k / poses;
     ++counts.poses;
     if (!scene.fcl_at(sampled.at(s))) continue;
     ++counts.fcl_hits;
@@ -395,6 +399,24 @@ void check_undecided(const Comparison& scene, const RigidMotion& motion, const M
             << text_of(motion.to()) << '\n';
 }
 
+// What a planner takes for the last valid state of a motion that is not free.
+void check_free_until(const Comparison& scene, const RigidMotion& motion, const MotionVerdict& verdict, unsigned poses,
+                      Counts& counts) {
+  CheckLimits limits;
+  limits.in_order = true;
+  const MotionVerdict ordered = scene.checker().check(motion, limits);
+  const bool is_late = verdict.status == MotionVerdict::Status::kCollides && ordered.free_until > verdict.parameter;
+  if (is_late || ordered.status == MotionVerdict::Status::kFree) {
+    ++counts.false_free;
+    std::cout << "free for too long: " << scene.name() << ", " << text_of(motion.from()) << "to "
+              << text_of(motion.to()) << '\n';
+    return;
+  }
+  if (ordered.free_until <= 0) return;
+  ++counts.in_part;
+  check_free(scene, motion, ordered.free_until, poses, counts);
+}
+
 int run(unsigned motions, unsigned seed, unsigned poses) {
   Chance chance(seed);
   Counts counts;
@@ -411,8 +433,11 @@ int run(unsigned motions, unsigned seed, unsigned poses) {
       ++counts.verdicts[static_cast<std::size_t>(verdict.status)];
       if (verdict.status == MotionVerdict::Status::kFree) {
         if (verdict.touches) ++counts.touching;
-        check_free(scene, motion, poses, counts);
-      } else if (verdict.status == MotionVerdict::Status::kCollides) {
+        check_free(scene, motion, 1, poses, counts);
+        continue;
+      }
+      check_free_until(scene, motion, verdict, poses / kFewer, counts);
+      if (verdict.status == MotionVerdict::Status::kCollides) {
         check_colliding(scene, motion, verdict, special, counts);
       } else {
         check_undecided(scene, motion, verdict, counts);
@@ -421,8 +446,8 @@ int run(unsigned motions, unsigned seed, unsigned poses) {
     if (done % 5000 < kOfOneScene) std::cerr << done << " motions\n";
   }
   std::cout << motions << " motions, " << 1e6 * counts.seconds / motions << " us each: " << counts.verdicts[0]
-            << " free (" << counts.touching << " of them touch), " << counts.verdicts[1] << " collide, "
-            << counts.verdicts[2] << " undecided\n"
+            << " free (" << counts.touching << " of them touch; " << counts.in_part << " others are in part), "
+            << counts.verdicts[1] << " collide, " << counts.verdicts[2] << " undecided\n"
             << counts.poses << " poses asked of FCL, " << counts.exact << " decided by Booleans\n"
             << "FCL reports " << counts.fcl_hits << " collisions on free motions, and none at " << counts.fcl_misses
             << " colliding poses\n"

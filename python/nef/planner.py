@@ -161,6 +161,11 @@ class TurningProof:
         """The first error in the proof, found independently of the search; None if it is valid."""
         return self._proof.complaint()
 
+    def text(self) -> Optional[str]:
+        """The same as the text of a .proof file (`planner --proof`), which `python/proofs/check.py` checks; None where start
+        and goal are separated by no distance, or only by surfaces."""
+        return self._proof.text()
+
 
 class Plan:
     """The answer to a query. True if it is a path.
@@ -489,7 +494,7 @@ class Scene:
             plan, text = Plan(answer, "rigid"), answer.get("proof_text")
         else:
             plan = self.plan(start=start, goal=goal)
-            text = scene.prove_no_path() if plan.status == "infeasible" else None
+            text = plan.proof.text() if plan.status == "infeasible" else None
         if plan.status == "path":
             return self.prove(plan)
         if text is None:

@@ -91,15 +91,19 @@ def between(a, b, s):
     return [(1 - s) * x + s * y for x, y in zip(a, b)]
 
 
+def rotation_form(q):
+    """The rotation matrix of a quaternion times its square, and a row with the square."""
+    w, x, y, z = q
+    return [[w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
+            [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
+            [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z], [dot(q, q)]]
+
+
 def mixed_rotation(p, q):
     """B(p, q) / <p, q>, where B(q, q) / <q, q> is the rotation matrix of q and B is symmetric and bilinear."""
-    def m(i, j):
-        return p[i] * q[j] + p[j] * q[i]
-    w, x, y, z = (m(i, i) for i in range(4))
-    rows = [[w + x - y - z, 2 * (m(1, 2) - m(0, 3)), 2 * (m(1, 3) + m(0, 2))],
-            [2 * (m(1, 2) + m(0, 3)), w - x + y - z, 2 * (m(2, 3) - m(0, 1))],
-            [2 * (m(1, 3) - m(0, 2)), 2 * (m(2, 3) + m(0, 1)), w - x - y + z]]
-    return [[Fraction(entry) / (2 * dot(p, q)) for entry in row] for row in rows]
+    forms = (rotation_form([x + y for x, y in zip(p, q)]), rotation_form(p), rotation_form(q))
+    *rows, [scale] = [minus(minus(both, one), other) for both, one, other in zip(*forms)]
+    return [[Fraction(entry) / scale for entry in row] for row in rows]
 
 
 def placed(turn, vertex, position):
@@ -338,18 +342,10 @@ def check_infeasible(claim, witness):
     return f"infeasible: {len(found)} triangles separate start and goal"
 
 
-# That there is no path of a robot that turns: boxes of poses. A box has intervals of three coordinates and of three parameters
-# of a chart of quaternions, origin + sum t_k directions[k], each t_k from -1 to 1.
+# That there is no path of a robot that turns. A chart is a set of quaternions, origin + sum t_k directions[k], each t_k from
+# -1 to 1; a part of one is a box of parameters.
 
 UNITS = [[int(i == k) for i in range(4)] for k in range(4)]
-
-
-def rotation_form(q):
-    """The rotation matrix of a quaternion times its square, and a row with the square."""
-    w, x, y, z = q
-    return [[w * w + x * x - y * y - z * z, 2 * (x * y - w * z), 2 * (x * z + w * y)],
-            [2 * (x * y + w * z), w * w - x * x + y * y - z * z, 2 * (y * z - w * x)],
-            [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z], [dot(q, q)]]
 
 
 def whole(rows):
@@ -358,61 +354,23 @@ def whole(rows):
     return [[int(x * scale) for x in row] for row in rows]
 
 
-class Rotations:
-    """The orientations of a claim as charts: all of them, or arcs from each quaternion of a chain to the next one. A seam
-    says where two charts meet: chart, axis of the box and end of it, the same beyond, a sign, and pairs of other axes."""
-
-    def __init__(self, value):
-        self.chain = [] if value == "all" else [numbers(q, 4) for q in items(value)]
-        if value == "all":
-            self.parameters = [[e for e in range(4) if e != c] for c in range(4)]
-            self.charts = [(UNITS[c], [UNITS[e] for e in self.parameters[c]]) for c in range(4)]
-            self.seams = [self.seam(c, e, end) for c in range(4) for e in range(c + 1, 4) for end in (1, -1)]
-            return
-        pairs = list(zip(self.chain, self.chain[1:]))
-        require(pairs and all(dot(p, q) > 0 for p, q in pairs), "neighbours in a chain are at least a half turn apart")
-        self.charts = [(between(p, q, Fraction(1, 2)), [[x / 2 for x in map(Fraction, minus(q, p))]]) for p, q in pairs]
-        self.seams = [(i, 3, 1, i + 1, 3, -1, 1, []) for i in range(len(pairs) - 1)]
-        if self.same(self.chain[0], self.chain[-1]):
-            self.seams.append((len(pairs) - 1, 3, 1, 0, 3, -1, 1, []))
-
-    def seam(self, c, e, end):
-        """Quaternions with components c = 1 and e = end; times the end, e = 1 and c = end."""
-        def axis(chart, component):
-            return 3 + self.parameters[chart].index(component)
-        others = [(axis(c, f), axis(e, f)) for f in range(4) if f not in (c, e)]
-        return c, axis(c, e), end, e, axis(e, c), end, end, others
-
-    @staticmethod
-    def same(p, q):
-        return all(p[i] * q[j] == p[j] * q[i] for i in range(4) for j in range(i))
-
-    def locate(self, q):
-        """A chart, and the parameters of a quaternion in it."""
-        if not self.chain:
-            chart = max(range(4), key=lambda c: abs(q[c]))
-            return chart, [Fraction(q[e]) / q[chart] for e in self.parameters[chart]]
-        place = next((i for i, p in enumerate(self.chain) if self.same(p, q)), None)
-        require(place is not None, "the quaternion of a pose is not in the chain")
-        return (place, [-1]) if place < len(self.charts) else (place - 1, [1])
-
-    def mixed(self, chart, low, high):
-        """Every rotation of a box is a mixture of these matrices (the Bernstein coefficients of the quadratic form, divided
-        by those of the square): at the ends and in the middle of each parameter, less the form of half of the edge for
-        each middle. Each is four rows of integers: three of the matrix, and its positive divisor."""
-        origin, directions = self.charts[chart]
-        result = []
-        for index in range(3 ** len(directions)):
-            ends = [index // 3 ** k % 3 for k in range(len(directions))]
-            at = [Fraction((2 - end) * low[k] + end * high[k]) / 2 for k, end in enumerate(ends)]
-            rows = rotation_form([x + sum(t * d[i] for t, d in zip(at, directions)) for i, x in enumerate(origin)])
-            for k, end in enumerate(ends):
-                if end == 1:
-                    edge = rotation_form([x * Fraction(high[k] - low[k]) / 2 for x in directions[k]])
-                    rows = [minus(row, less) for row, less in zip(rows, edge)]
-            require(rows[3][0] > 0, "a blocked box has too many orientations")
-            result.append(whole(rows))
-        return result
+def mixtures(chart, low, high):
+    """Every rotation of a part of a chart is a mixture of these matrices (the Bernstein coefficients of the quadratic form,
+    divided by those of the square): at the ends and in the middle of each parameter, less the form of half of the edge for
+    each middle. Each is four rows of integers: three of the matrix, and its positive divisor."""
+    origin, directions = chart
+    result = []
+    for number_of_mixture in range(3 ** len(directions)):
+        ends = [number_of_mixture // 3 ** k % 3 for k in range(len(directions))]
+        at = [Fraction((2 - end) * low[k] + end * high[k]) / 2 for k, end in enumerate(ends)]
+        rows = rotation_form([x + sum(t * d[i] for t, d in zip(at, directions)) for i, x in enumerate(origin)])
+        for k, end in enumerate(ends):
+            if end == 1:
+                edge = rotation_form([x * Fraction(high[k] - low[k]) / 2 for x in directions[k]])
+                rows = [minus(row, less) for row, less in zip(rows, edge)]
+        require(rows[3][0] > 0, "what is blocked has too many orientations")
+        result.append(whole(rows))
+    return result
 
 
 def faces(piece):
@@ -433,13 +391,68 @@ def faces(piece):
     return list(found.items())
 
 
+class Blocking:
+    """Shows that pieces overlap at all orientations of a part of a chart, and at all positions of the reference point in the
+    hull of some."""
+
+    def __init__(self, claim, charts, reference):
+        self.claim, self.charts, self.reference = claim, charts, reference
+        self.faces, self.normals = {}, {}
+
+    def faces_of(self, kind, i):
+        if (kind, i) not in self.faces:
+            piece = self.claim.robot[i] if kind == "robot" else self.claim.obstacles[i]
+            self.faces[kind, i] = faces([minus(v, self.reference) for v in piece] if kind == "robot" else piece)
+        return self.faces[kind, i]
+
+    def inner_piece(self, chart, low, high, i):
+        """Half-spaces n x < c of integers, as (*n, c), whose points are inside the piece at all of the orientations."""
+        key = chart, *low, *high, i
+        if key not in self.normals:
+            mixed = mixtures(self.charts[chart], low, high)
+            self.normals[key] = [(*(dot(row, normal) * c.denominator for row in m[:3]), c.numerator * m[3][0])
+                                 for normal, c in self.faces_of("robot", i) for m in mixed]
+        return self.normals[key]
+
+    def check(self, chart, low, high, positions, i, j, common):
+        """Each position has a point of the obstacle that is inside the inner piece there. Both are convex, so each position
+        between them has one."""
+        index(i, len(self.claim.robot))
+        obstacle = self.faces_of("obstacle", index(j, len(self.claim.obstacles)))
+        inner = self.inner_piece(chart, low, high, i)
+        for position, point in zip(positions, items(common, len(positions))):
+            point = numbers(point, 3)
+            require(all(dot(n, point) <= c for n, c in obstacle), "a point of both pieces is not in the obstacle")
+            seen = minus(point, position)
+            scale = math.lcm(*(x.denominator for x in seen))
+            x, y, z = (int(x * scale) for x in seen)
+            require(all(a * x + b * y + c * z < most * scale for a, b, c, most in inner),
+                    "a point of both pieces is not inside the robot")
+
+
+# About all axes: boxes of poses, of three coordinates and three parameters of a chart.
+
+# Quaternions with component c = 1; the others are the parameters.
+PARAMETERS = [[e for e in range(4) if e != c] for c in range(4)]
+CHARTS = [(UNITS[c], [UNITS[e] for e in PARAMETERS[c]]) for c in range(4)]
+
+
+def seam(c, e, end):
+    """Where charts meet, component c = 1 and e = end; times the end, e = 1 and c = end. Chart, axis of the box and end of it,
+    the same beyond, and pairs of other axes, whose values are multiplied by the end."""
+    def axis(chart, component):
+        return 3 + PARAMETERS[chart].index(component)
+    return c, axis(c, e), e, axis(e, c), end, [(axis(c, f), axis(e, f)) for f in range(4) if f not in (c, e)]
+
+
 class PoseBoxes:
     """The boxes of a witness: checks each, and that no box on the side of the start has a facet in common with one on that of
     the goal."""
 
-    def __init__(self, claim, rotations, cells):
+    def __init__(self, claim, cells):
         reference, bounds, outside, charts = fields(cells, "reference", "bounds", "outside", "charts")
-        self.claim, self.rotations, self.reference = claim, rotations, numbers(reference, 3)
+        self.claim, self.reference = claim, numbers(reference, 3)
+        self.blocking = Blocking(claim, CHARTS, self.reference)
         self.bounds = [numbers(corner, 3) for corner in items(bounds, 2)]
         require(all(a < b for a, b in zip(*self.bounds)), "the bounds are empty")
         if claim.box is not None:
@@ -448,15 +461,15 @@ class PoseBoxes:
                     "the bounds are too narrow for the reference point")
         else:
             require(outside in ("start", "goal"), "it is not said on which side the outside of the bounds is")
-        self.outside, self.leaves, self.faces, self.normals = outside, 0, {}, {}
+        self.outside, self.leaves = outside, 0
         self.trees = [self.tree(cell, chart, self.bounds[0] + [-1] * 3, self.bounds[1] + [1] * 3)
-                      for chart, cell in enumerate(items(charts, len(rotations.charts)))]
+                      for chart, cell in enumerate(items(charts, 4))]
 
     def tree(self, cell, chart, low, high):
         """A box as (low, high, the sides of the boxes in it, its halves)."""
         if isinstance(cell, dict) and "halves" in cell:
             axis, at, halves = fields(cell, "axis", "at", "halves")
-            index(axis, 3 + len(self.rotations.charts[0][1]))
+            index(axis, 6)
             at = number(at)
             require(low[axis] < at < high[axis], "a box is cut outside of it")
             below, above = items(halves, 2)
@@ -474,44 +487,15 @@ class PoseBoxes:
         if isinstance(cell, dict) and "beyond" in cell:
             self.check_beyond(chart, low, high, index(fields(cell, "beyond")[0], 6))
         else:
-            self.check_blocked(chart, low, high, *fields(cell, "robot", "obstacle", "common"))
+            corners = [[(high if corner >> k & 1 else low)[k] for k in range(3)] for corner in range(8)]
+            self.blocking.check(chart, low[3:], high[3:], corners, *fields(cell, "robot", "obstacle", "common"))
         return low, high, set(), []
-
-    def faces_of(self, kind, i):
-        if (kind, i) not in self.faces:
-            piece = self.claim.robot[i] if kind == "robot" else self.claim.obstacles[i]
-            self.faces[kind, i] = faces([minus(v, self.reference) for v in piece] if kind == "robot" else piece)
-        return self.faces[kind, i]
-
-    def inner_piece(self, chart, low, high, i):
-        """Half-spaces n x < c of integers, as (*n, c), whose points are inside the piece at all orientations of the box."""
-        key = chart, *low[3:], *high[3:], i
-        if key not in self.normals:
-            mixed = self.rotations.mixed(chart, low[3:], high[3:])
-            self.normals[key] = [(*(dot(row, normal) * c.denominator for row in m[:3]), c.numerator * m[3][0])
-                                 for normal, c in self.faces_of("robot", i) for m in mixed]
-        return self.normals[key]
-
-    def check_blocked(self, chart, low, high, i, j, common):
-        """Each corner of the box of positions has a point of the obstacle that is inside the inner piece there. Both are
-        convex, so each position has one."""
-        index(i, len(self.claim.robot))
-        obstacle = self.faces_of("obstacle", index(j, len(self.claim.obstacles)))
-        inner = self.inner_piece(chart, low, high, i)
-        for corner, point in enumerate(items(common, 8)):
-            point = numbers(point, 3)
-            require(all(dot(n, point) <= c for n, c in obstacle), "a point of a blocked box is not in the obstacle")
-            seen = minus(point, [(high if corner >> k & 1 else low)[k] for k in range(3)])
-            scale = math.lcm(*(x.denominator for x in seen))
-            x, y, z = (int(x * scale) for x in seen)
-            require(all(a * x + b * y + c * z < most * scale for a, b, c, most in inner),
-                    "a point of a blocked box is not inside the robot")
 
     def check_beyond(self, chart, low, high, side):
         """The robot's origin, R(q) reference away from the positions of the box, is beyond a side of the claim's box."""
         require(self.claim.box is not None, "there is no box to be beyond")
         upper, k = divmod(side, 3)
-        for m in self.rotations.mixed(chart, low[3:], high[3:]):
+        for m in mixtures(CHARTS[chart], low[3:], high[3:]):
             away = Fraction(dot(m[k], self.reference)) / m[3][0]
             require(low[k] - away > self.claim.box[1][k] if upper else high[k] - away < self.claim.box[0][k],
                     "a box is not beyond a side of the claim's box")
@@ -522,13 +506,13 @@ class PoseBoxes:
         return a[1][axis] == b[0][axis] and all(a[0][k] < b[1][k] and b[0][k] < a[1][k] for k in range(6) if k != axis)
 
     @staticmethod
-    def facet_at(seam, a, b):
+    def facet_at(at, a, b):
         """The same of boxes of two charts."""
-        _, here, end, _, there, other_end, sign, others = seam
-        if a[(1 + end) // 2][here] != end or b[(1 + other_end) // 2][there] != other_end:
+        _, here, _, there, end, others = at
+        if a[(1 + end) // 2][here] != end or b[(1 + end) // 2][there] != end:
             return False
         spans = [(a[0][k], a[1][k], k) for k in range(3)]
-        spans += [(*sorted((sign * a[0][k], sign * a[1][k])), other) for k, other in others]
+        spans += [(*sorted((end * a[0][k], end * a[1][k])), other) for k, other in others]
         return all(low < b[1][k] and b[0][k] < high for low, high, k in spans)
 
     def require_apart(self, a, b, have_facet):
@@ -545,8 +529,8 @@ class PoseBoxes:
         at = placed(mixed_rotation(q, q), self.reference, position)
         if self.outside is not None and any(x < a or x > b for x, a, b in zip(at, *self.bounds)):
             return self.outside == side
-        chart, parameters = self.rotations.locate(q)
-        at = at + parameters + [0] * (3 - len(parameters))
+        chart = max(range(4), key=lambda c: abs(q[c]))
+        at = at + [Fraction(q[e]) / q[chart] for e in PARAMETERS[chart]]
         open_trees = [self.trees[chart]]
         for low, high, sides, halves in open_trees:
             if side in sides and all(a <= x <= b for a, x, b in zip(low, at, high)):
@@ -556,21 +540,132 @@ class PoseBoxes:
         return False
 
 
-def check_no_rigid_path(claim, witness):
+def check_boxes(claim, cells):
     """A path that meets no blocked box can be moved off the edges of boxes, so it goes through facets, and stays on its
     side."""
-    rotations = Rotations(claim["rotations"])
-    claim = PathClaim({key: value for key, value in claim.items() if key != "rotations"})
-    require(len(claim.poses) == 2, "expected start and goal")
-    boxes = PoseBoxes(claim, rotations, fields(witness, "cells")[0])
-    for seam in rotations.seams:
-        boxes.require_apart(boxes.trees[seam[0]], boxes.trees[seam[3]], lambda a, b, seam=seam: boxes.facet_at(seam, a, b))
+    boxes = PoseBoxes(claim, cells)
+    for at in [seam(c, e, end) for c in range(4) for e in range(c + 1, 4) for end in (1, -1)]:
+        boxes.require_apart(boxes.trees[at[0]], boxes.trees[at[2]], lambda a, b, at=at: boxes.facet_at(at, a, b))
     for side, pose in zip(("start", "goal"), claim.poses):
         require(boxes.has(side, pose), f"the {side} is in no box on its side")
     return f"infeasible: {boxes.leaves} boxes of poses separate start and goal"
 
 
-# That no set of parts can begin to move: cones of directions in each of which all parts are tied together.
+# Along a chain of arcs: layers of orientations. In each, triangles of positions are blocked; where one layer follows on
+# another one, tetrahedra fill what is between their triangles.
+
+def are_parallel(p, q):
+    return all(p[i] * q[j] == p[j] * q[i] for i in range(4) for j in range(i))
+
+
+def unit(v):
+    """The shortest integer vector that is parallel to one, its first number that is not zero positive."""
+    v = integral(v)
+    length = math.gcd(*v) * (1 if next((x for x in v if x), 0) > 0 else -1)
+    require(length, "a triangle has no extent")
+    return tuple(x // length for x in v)
+
+
+def edge_ends(corners):
+    """The ends of a triangle's edges, each with the line of its edge. If these cancel out modulo 2 over some triangles, so do
+    the edges as sets of points, however they are cut."""
+    for a, b in zip(corners, corners[1:] + corners[:1]):
+        along = unit(minus(b, a))
+        line = along, *cross(a, along)
+        yield line, *a
+        yield line, *b
+
+
+def plane_ends(corners):
+    """The same with the plane of the triangle. If these cancel out, so do the triangles."""
+    normal = unit(cross(minus(corners[1], corners[0]), minus(corners[2], corners[0])))
+    return [(normal, dot(normal, corners[0]), end) for end in edge_ends(corners)]
+
+
+def cancel_out(ends):
+    return all(count % 2 == 0 for count in collections.Counter(ends).values())
+
+
+class Layers:
+    """Checks the layers of a witness: that all in them is blocked, and that it is a cycle modulo 2 of poses."""
+
+    def __init__(self, claim, chain, places, layers):
+        quaternions = [numbers(q, 4) for q in items(chain)]
+        arcs = list(zip(quaternions, quaternions[1:]))
+        require(arcs and all(dot(p, q) > 0 for p, q in arcs), "neighbours in a chain are at least a half turn apart")
+        self.quaternions = quaternions
+        self.places = None if places is None else [index(place, len(quaternions)) for place in items(places, 2)]
+        self.closed = places is None and are_parallel(quaternions[0], quaternions[-1])
+        charts = [(between(p, q, Fraction(1, 2)), [[x / 2 for x in map(Fraction, minus(q, p))]]) for p, q in arcs]
+        points, given = fields(layers, "points", "charts")
+        self.claim, self.blocking = claim, Blocking(claim, charts, [0, 0, 0])
+        self.points = [numbers(point, 3) for point in items(points)]
+        self.barriers, self.closings, self.first = [], [], []
+        for chart, parts in enumerate(items(given, len(charts))):
+            self.first.append(len(self.barriers))
+            self.add_chart(chart, items(parts))
+        self.first.append(len(self.barriers))
+        self.check_cycle()
+
+    def add_chart(self, chart, parts):
+        low = -1
+        for part in parts:
+            until, barrier, closing = fields(part, "until", "barrier", "closing")
+            high = number(until)
+            require(low < high <= 1, "the layers of a chart do not go from -1 up to 1")
+            self.barriers.append([self.simplex(3, chart, low, high, given) for given in items(barrier)])
+            self.closings.append([self.simplex(4, chart, high, high, given) for given in items(closing)])
+            low = high
+        require(low == 1, "the layers of a chart do not go from -1 up to 1")
+
+    def simplex(self, count, chart, low, high, given):
+        """The corners of a triangle or tetrahedron: beyond a side of the box, or two pieces overlap on all of it."""
+        hit = isinstance(given, dict) and "robot" in given
+        numbers_of_corners, *pair = fields(given, "corners", *(("robot", "obstacle", "common") if hit else ()))
+        corners = [self.points[index(c, len(self.points))] for c in items(numbers_of_corners, count)]
+        if hit:
+            self.blocking.check(chart, [low], [high], corners, *pair)
+        require(hit or beyond_a_side(self.claim.box, corners), "a position in a layer may be free")
+        return corners
+
+    def check_cycle(self):
+        for i, (barrier, closing) in enumerate(zip(self.barriers, self.closings)):
+            require(cancel_out(end for triangle in barrier for end in edge_ends(triangle)), "the triangles of a layer have a border")
+            if i + 1 == len(self.barriers) and not self.closed:
+                require(not closing, "no layer follows on the last one")
+                return
+            sides = [solid[:k] + solid[k + 1:] for solid in closing for k in range(4)]
+            triangles = barrier + self.barriers[(i + 1) % len(self.barriers)] + sides
+            require(cancel_out(end for triangle in triangles for end in plane_ends(triangle)), "there is a gap between two layers")
+
+    def is_inside(self, end):
+        """Whether a ray from the start (0) or the goal (1) crosses the triangles of its layer an odd number of times."""
+        position, q = self.claim.poses[end]
+        place = next((i for i, p in enumerate(self.quaternions) if are_parallel(p, q)), None) if self.places is None else self.places[end]
+        require(place is not None and are_parallel(self.quaternions[place], q), "the quaternion of a pose is not in the chain")
+        return crosses_odd(self.barriers[min(self.first[place], len(self.barriers) - 1)], position)
+
+
+def check_layers(claim, chain, places, witness):
+    """The triangles at all orientations of their layers, and the tetrahedra, are a cycle modulo 2 in the space of poses, and no
+    pose on it is free. What it separates is told by rays."""
+    layers = Layers(claim, chain, places, witness)
+    require(layers.is_inside(0) != layers.is_inside(1), "start and goal are on the same side of the barrier")
+    return f"infeasible: a barrier in {len(layers.barriers)} layers of orientations separates start and goal"
+
+
+def check_no_rigid_path(claim, witness):
+    rotations, places = claim["rotations"], claim.get("places")
+    require(places is not None or "places" not in claim, "there are no places in the chain")
+    claim = PathClaim({key: value for key, value in claim.items() if key not in ("rotations", "places")})
+    require(len(claim.poses) == 2, "expected start and goal")
+    if rotations != "all":
+        return check_layers(claim, rotations, places, fields(witness, "layers")[0])
+    require(places is None, "only a chain has places")
+    return check_boxes(claim, fields(witness, "cells")[0])
+
+
+# Cones of directions, in each of which contacts block the way.
 
 def outer_planes(vectors):
     """The outward normals of the planes through two of the vectors that have all of them on one side: those around the
@@ -586,21 +681,47 @@ def outer_planes(vectors):
     return found
 
 
-def check_contact(parts, contact):
-    """Two pieces with a point in common. The first one overlaps the second one as soon as it moves in a direction of the
-    inside of the cone of the vectors from the point to the second one and from the first one to the point. Returns both
-    parts and the normals around that cone."""
-    first, second, common = fields(contact, "first", "second", "common")
-    found = []
-    for piece, weights in zip((first, second), fields(common, "first", "second")):
-        part, place = items(piece, 2)
-        vertices = parts[index(part, len(parts))][index(place, len(parts[part]))]
-        found.append((part, vertices, weighted_sum(vertices, numbers(weights, len(vertices)), False)))
-    (a, piece, point), (b, other, same) = found
-    require(a != b and point == same, "two pieces have not the point in common")
+def blocked_cone(piece, ours, other, theirs):
+    """Two pieces with a point in common, each a weighted sum of its vertices: the first one overlaps the second one as soon as
+    it moves in a direction of the inside of the cone of the vectors from the point to the second one and from the first one
+    to the point. Returns the normals around that cone."""
+    point = weighted_sum(piece, numbers(ours, len(piece)), False)
+    require(point == weighted_sum(other, numbers(theirs, len(other)), False), "two pieces have not the point in common")
     normals = outer_planes([minus(vertex, point) for vertex in other] + [minus(point, vertex) for vertex in piece])
     require(normals, "two pieces of a contact overlap, or are flat")
-    return a, b, normals
+    return normals
+
+
+def uncut_cones(octants, frame, middle):
+    """All directions in cones of three vectors: octants, whose vector k is negated if bit k of the number is set. One with an
+    `edge` is cut by what is in the middle between two of its vectors. Yields those that are not cut."""
+    waiting = [(cone, [[-x for x in vector] if octant >> k & 1 else vector for k, vector in enumerate(frame)])
+               for octant, cone in enumerate(items(octants, 8))]
+    for cone, corners in waiting:
+        if not isinstance(cone, dict) or "edge" not in cone:
+            yield cone, corners
+            continue
+        edge, halves = fields(cone, "edge", "halves")
+        after = (index(edge, 3) + 1) % 3
+        cut = middle(corners[edge], corners[after])
+        waiting += [(half, [cut if k == end else corner for k, corner in enumerate(corners)])
+                    for half, end in zip(items(halves, 2), (after, edge))]
+
+
+AXES_OF_SPACE = [[int(i == k) for i in range(3)] for k in range(3)]
+
+
+# That no set of parts can begin to move: in each cone all parts are tied together.
+
+def check_contact(parts, contact):
+    """Returns both parts and the normals around the cone of directions that is blocked."""
+    first, second, common = fields(contact, "first", "second", "common")
+    pieces_of_contact = []
+    for piece, weights in zip((first, second), fields(common, "first", "second")):
+        part, place = items(piece, 2)
+        pieces_of_contact += [parts[index(part, len(parts))][index(place, len(parts[part]))], weights]
+    require(first[0] != second[0], "a part does not touch itself")
+    return first[0], second[0], blocked_cone(*pieces_of_contact)
 
 
 def reaches_all(count, ties, start):
@@ -614,27 +735,6 @@ def reaches_all(count, ties, start):
     return len(known) == count
 
 
-def check_cone(count, contacts, cone, corners):
-    """In all directions that three vectors span, each set of parts is blocked by another part. Returns the number of
-    cones that are not cut."""
-    if isinstance(cone, dict) and "edge" in cone:
-        edge, halves = fields(cone, "edge", "halves")
-        after = (index(edge, 3) + 1) % 3
-        middle = [x + y for x, y in zip(corners[edge], corners[after])]
-        first, second = items(halves, 2)
-        return sum(check_cone(count, contacts, half, [middle if k == end else corner for k, corner in enumerate(corners)])
-                   for half, end in ((first, after), (second, edge)))
-    ties = []
-    for way, blocked in zip((1, -1), fields(cone, "first_blocked", "second_blocked")):
-        for contact in items(blocked):
-            a, b, normals = contacts[index(contact, len(contacts))]
-            require(all(way * dot(normal, corner) < 0 for normal in normals for corner in corners),
-                    "a contact does not block all directions of a cone")
-            ties.append((a, b)[::way])
-    require(all(reaches_all(count, ties, start) for start in (0, 1)), "in some directions a set of parts is not blocked")
-    return 1
-
-
 def check_inseparable(claim, witness):
     _, named = fields(claim, "status", "parts")
     names, parts = [], []
@@ -646,17 +746,25 @@ def check_inseparable(claim, witness):
     require(len(parts) > 1, "the claim has less than two parts")
     given, octants = fields(witness, "contacts", "octants")
     contacts = [check_contact(parts, contact) for contact in items(given)]
-    cones = sum(check_cone(len(parts), contacts, cone,
-                           [[(-1 if octant >> k & 1 else 1) if i == k else 0 for i in range(3)] for k in range(3)])
-                for octant, cone in enumerate(items(octants, 8)))
-    return f"inseparable: no set of {len(parts)} parts can begin to move, in {cones} cones of directions"
+    count = 0
+    for cone, corners in uncut_cones(octants, AXES_OF_SPACE, lambda a, b: [x + y for x, y in zip(a, b)]):
+        ties = []
+        for way, blocked in zip((1, -1), fields(cone, "first_blocked", "second_blocked")):
+            for contact in items(blocked):
+                a, b, normals = contacts[index(contact, len(contacts))]
+                require(all(way * dot(normal, corner) < 0 for normal in normals for corner in corners),
+                        "a contact does not block all directions of a cone")
+                ties.append((a, b)[::way])
+        require(all(reaches_all(len(parts), ties, start) for start in (0, 1)), "in some directions a set of parts is not blocked")
+        count += 1
+    return f"inseparable: no set of {len(parts)} parts can begin to move, in {count} cones of directions"
 
 
-# That passages are tight: cones of directions in each of which one contact blocks all that does not lead along the passage.
+# That passages are tight: in each cone one contact blocks all that does not lead along the passage.
 
 def tight_frame(along):
     """Three vectors that span space, those of the passage first."""
-    axes = [[int(i == k) for i in range(3)] for k in range(3)]
+    axes = list(AXES_OF_SPACE)
     if len(along) == 1 and any(along[0]):
         first = next(k for k in range(3) if along[0][k])
         axes[first] = axes[0]
@@ -684,11 +792,7 @@ def tight_contact(claim, position, contact):
     piece = [[x + at for x, at in zip(vertex, position)] for vertex in claim.robot[index(i, len(claim.robot))]]
     obstacle = claim.obstacles[index(j, len(claim.obstacles))]
     ours, theirs = fields(common, "robot", "obstacle")
-    point = weighted_sum(piece, numbers(ours, len(piece)), False)
-    require(point == weighted_sum(obstacle, numbers(theirs, len(obstacle)), False), "two pieces have not the point in common")
-    normals = outer_planes([minus(vertex, point) for vertex in obstacle] + [minus(point, vertex) for vertex in piece])
-    require(normals, "two pieces of a contact overlap, or are flat")
-    return normals
+    return blocked_cone(piece, ours, obstacle, theirs)
 
 
 def balanced_sum(a, b):
@@ -697,21 +801,6 @@ def balanced_sum(a, b):
     ratio = lengths[1] / lengths[0]
     up, down = (max(0, math.floor(r).bit_length() - 1) for r in (ratio, 1 / ratio))
     return [x * 2 ** up + y * 2 ** down for x, y in zip(a, b)]
-
-
-def check_tight_cone(along, contacts, cone, corners):
-    if isinstance(cone, dict) and "edge" in cone:
-        edge, halves = fields(cone, "edge", "halves")
-        after = (index(edge, 3) + 1) % 3
-        middle = balanced_sum(corners[edge], corners[after])
-        first, second = items(halves, 2)
-        for half, end in ((first, after), (second, edge)):
-            check_tight_cone(along, contacts, half, [middle if k == end else corner for k, corner in enumerate(corners)])
-        return
-    normals = contacts[index(fields(cone, "contact")[0], len(contacts))]
-    for corner in corners:
-        sides = {sign(dot(normal, corner)) for normal in normals}
-        require(sides <= ({-1, 0} if is_along(along, corner) else {-1}), "a contact does not block all directions of a cone")
 
 
 def check_tight(claim, witness):
@@ -727,10 +816,12 @@ def check_tight(claim, witness):
         planes, given, octants = fields(place, "planes", "contacts", "octants")
         check_part(claim, Motion(pose, pose), Fraction(0), Fraction(1), planes)
         contacts = [tight_contact(claim, position, contact) for contact in items(given)]
-        frame = tight_frame(along)
-        for octant, cone in enumerate(items(octants, 8)):
-            corners = [[-x for x in vector] if octant >> k & 1 else vector for k, vector in enumerate(frame)]
-            check_tight_cone(along, contacts, cone, corners)
+        for cone, corners in uncut_cones(octants, tight_frame(along), balanced_sum):
+            normals = contacts[index(fields(cone, "contact")[0], len(contacts))]
+            for corner in corners:
+                sides = {sign(dot(normal, corner)) for normal in normals}
+                require(sides <= ({-1, 0} if is_along(along, corner) else {-1}),
+                        "a contact does not block all directions of a cone")
     return f"tight: {len(places)} passage" + "s" * (len(places) != 1)
 
 

@@ -213,6 +213,9 @@ def test_a_robot_that_turns(needs):
     none = closed.plan((2, 4, 4, 0), (7, 4, 4, 45))
     assert none.status == "infeasible" and isinstance(none.proof, planner.TurningProof)
     assert none.proof.cells > 0 and none.proof.complaint() is None
+    text = none.proof.text()
+    assert closed.prove(start=(2, 4, 4, 0), goal=(7, 4, 4, 45)) == text
+    assert list(json.loads(text)["witness"]) == ["layers"]
 
 
 def test_time_ends_a_plan(needs):

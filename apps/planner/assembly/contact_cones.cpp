@@ -6,6 +6,12 @@
 // plane of C. The same holds for the complement of A, with -d. If neither is convex, A and B are cut into convex cones
 // A_i and B_j: blocked are the insides of the hulls of B_j and -A_i, whose facets are found by trying all pairs of
 // rays.
+//
+// Parts that fit each other have such contacts at nearly all of their vertices, but half-spaces tell all of them. Where
+// facets of A and B look against each other, all directions behind their plane are blocked. And only such directions
+// can be blocked that lead behind the plane of a facet of C, since whatever leaves C goes out through a facet; so
+// contacts whose facets, all of A or all of B, give known half-spaces say nothing new, nor do pairs of A_i and B_j on
+// both sides of one known plane.
 #include "apps/planner/assembly/contact_cones.h"
 
 #include <algorithm>
@@ -26,10 +32,24 @@ namespace {
 
 using Rays = std::vector<Integer3>;  // that span a convex cone
 
+// An arc of the boundary of a local pyramid, less than a half circle, counterclockwise about the inward normal.
+struct BoundaryArc {
+  Integer3 inward;
+  Integer3 from;
+  Integer3 to;
+
+  [[nodiscard]] Integer3 middle() const { return plus(from, to); }
+  // Whether the inside of the arc has a ray in its plane.
+  [[nodiscard]] bool has(const Integer3& ray) const {
+    return sgn(dot(inward, cross(from, ray))) > 0 && sgn(dot(inward, cross(ray, to))) > 0;
+  }
+};
+
 // A local pyramid of a solid.
 struct LocalCone {
   Rays rays;                     // along its edges, and one inside each half circle of its boundary
   std::vector<Integer3> inward;  // normals of its facets
+  std::vector<BoundaryArc> arcs;
   bool convex = false;
   bool hollow = false;  // its complement is convex
 
@@ -67,6 +87,7 @@ LocalCone local_cone(const PlaneTable& planes, const SphereMapView& map) {
     const int turn = sgn(dot(inward, cross(from, to)));
     short_arcs = short_arcs && turn >= 0 && from != to;
     if (turn == 0) cone.rays.push_back(cross(inward, from));
+    if (turn > 0) cone.arcs.push_back({inward, from, to});
     cone.inward.push_back(inward);
   }
   for (const SLoop& loop : map.sloops) {
@@ -182,6 +203,58 @@ class Pyramids {
   std::map<ItemRef, Pyramid> known_;
 };
 
+// The inward normals of a's facets that have a facet of b against them: an arc of both pyramids has a common inner
+// part.
+void add_facing(const LocalCone& a, const LocalCone& b, std::set<Integer3>& blocked) {
+  for (const BoundaryArc& of_a : a.arcs) {
+    for (const BoundaryArc& of_b : b.arcs) {
+      if (of_b.inward != opposite(of_a.inward)) continue;
+      if (of_a.has(of_b.middle()) || of_b.has(of_a.middle())) blocked.insert(of_a.inward);
+    }
+  }
+}
+
+// Whether all directions that a contact may block are in half-spaces that are known.
+bool is_known(const LocalCone& a, const LocalCone& b, const std::set<Integer3>& blocked) {
+  return std::all_of(a.inward.begin(), a.inward.end(), [&](const Integer3& n) { return blocked.contains(n); }) ||
+         std::all_of(b.inward.begin(), b.inward.end(),
+                     [&](const Integer3& n) { return blocked.contains(opposite(n)); });
+}
+
+// The cones of all pairs of convex parts of a and b but those in a known half-space that belongs to a facet of one.
+void add_pairs(const LocalCone& a, const LocalCone& b, const std::vector<Rays>& parts_a,
+               const std::vector<Rays>& parts_b, const std::set<Integer3>& blocked, std::set<OpenCone>& cones) {
+  std::set<Integer3> planes;
+  for (const Integer3& n : a.inward) planes.insert(n);
+  for (const Integer3& n : b.inward) planes.insert(opposite(n));
+  std::erase_if(planes, [&](const Integer3& n) { return !blocked.contains(n); });
+  // For each part the planes of which it is all on one side.
+  const auto sides = [&](const std::vector<Rays>& parts, int side) {
+    std::vector<std::vector<bool>> result;
+    for (const Rays& part : parts) {
+      std::vector<bool>& of_part = result.emplace_back();
+      for (const Integer3& n : planes) {
+        of_part.push_back(
+            std::all_of(part.begin(), part.end(), [&](const Integer3& ray) { return side * sgn(dot(n, ray)) >= 0; }));
+      }
+    }
+    return result;
+  };
+  const auto above = sides(parts_a, 1);
+  const auto below = sides(parts_b, -1);
+  for (std::size_t j = 0; j < parts_b.size(); ++j) {
+    for (std::size_t i = 0; i < parts_a.size(); ++i) {
+      bool is_in_half_space = false;
+      for (std::size_t k = 0; k < planes.size(); ++k)
+        is_in_half_space = is_in_half_space || (above[i][k] && below[j][k]);
+      if (is_in_half_space) continue;
+      Rays rays = parts_b[j];
+      for (const Integer3& ray : parts_a[i]) rays.push_back(opposite(ray));
+      cones.insert(inside_of_hull(rays));
+    }
+  }
+}
+
 // A point where two items touch, of which one is a vertex, or both are edges.
 Rational3 common_point(const Complex& a, const Complex& b, const ItemRef& of_a, const ItemRef& of_b) {
   if (of_a.kind == ItemRef::Kind::kVertex) return a.points.rational(point_of(of_a.vertex()));
@@ -218,23 +291,25 @@ std::optional<ContactCones> contact_cones(const Polyhedron& a, const Polyhedron&
   if (!contacts) return std::nullopt;
   Pyramids of_a(a.complex());
   Pyramids of_b(b.complex());
-  std::set<OpenCone> cones;
+  std::set<Integer3> half_spaces;  // all directions behind these planes are blocked
   for (const auto& [item_a, item_b] : *contacts) {
     const LocalCone& cone_a = of_a.at(item_a).cone;
     const LocalCone& cone_b = of_b.at(item_b).cone;
     if (cone_b.hollow) {
-      for (const Integer3& inward : cone_b.inward) cones.insert({opposite(inward)});
+      for (const Integer3& inward : cone_b.inward) half_spaces.insert(opposite(inward));
     } else if (cone_a.hollow) {
-      for (const Integer3& inward : cone_a.inward) cones.insert({inward});
+      half_spaces.insert(cone_a.inward.begin(), cone_a.inward.end());
     } else {
-      for (const Rays& part_b : of_b.parts_at(item_b, monitor)) {
-        for (const Rays& part_a : of_a.parts_at(item_a, monitor)) {
-          Rays rays = part_b;
-          for (const Integer3& ray : part_a) rays.push_back(opposite(ray));
-          cones.insert(inside_of_hull(rays));
-        }
-      }
+      add_facing(cone_a, cone_b, half_spaces);
     }
+  }
+  std::set<OpenCone> cones;
+  for (const Integer3& n : half_spaces) cones.insert({n});
+  for (const auto& [item_a, item_b] : *contacts) {
+    const LocalCone& cone_a = of_a.at(item_a).cone;
+    const LocalCone& cone_b = of_b.at(item_b).cone;
+    if (cone_a.hollow || cone_b.hollow || is_known(cone_a, cone_b, half_spaces)) continue;
+    add_pairs(cone_a, cone_b, of_a.parts_at(item_a, monitor), of_b.parts_at(item_b, monitor), half_spaces, cones);
   }
   ContactCones result;
   for (const OpenCone& cone : cones) {

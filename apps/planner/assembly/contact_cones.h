@@ -40,8 +40,8 @@ struct ContactCones {
 /// sets are largest at the vertices of the arrangement of both boundaries, so only these are looked at. If the
 /// complement of a pyramid is convex (a facet, an edge that is no valley, ...), the differences are all directions that
 /// lead behind one of its planes; otherwise the pyramids are cut into convex cones, and each pair of these gives an
-/// open cone. O(k log n) for k pairs of an edge and a facet that come near, and O(d^3) for each contact at vertices of
-/// d edges.
+/// open cone, unless facets that look against each other say as much. O(k log n) for k pairs of an edge and a facet
+/// that come near, and O(d^3) for each contact at vertices of d edges that needs those cones.
 std::optional<ContactCones> contact_cones(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor = {});
 
 }  // namespace nef::planner

@@ -15,28 +15,22 @@ namespace nef::planner {
 using Kind = PathProof::PoseCell::Kind;
 using State = BarrierCell::State;
 
-double BarrierCell::middle_of_axis() const {
-  return axis == BarrierGraph::kAngle ? (orientation.low[0] + orientation.high[0]) / 2
-                                      : box.middle()[static_cast<Eigen::Index>(axis)];
-}
+double BarrierCell::middle_of_axis() const { return box.middle()[static_cast<Eigen::Index>(axis)]; }
 
-BarrierGraph::BarrierGraph(const PathProof::Claim& claim, const Rational3& reference, double reach,
-                           const std::array<End, 2>& ends, std::size_t circle)
+BarrierGraph::BarrierGraph(const PathProof::Claim& claim, const Rational3& reference, double reach)
     : is_bounded_(claim.box.has_value()),
       bounds_(claim, reference, reach),
-      ends_(ends),
-      circle_(2.0 * static_cast<double>(circle)) {
+      ends_{reference_position(claim.path.front(), reference), reference_position(claim.path.back(), reference)} {
   cells_.emplace_back().is_hopeless = true;  // outside
 }
 
-void BarrierGraph::add_root(std::uint32_t chart, std::vector<BlockingPairs::Pair> pairs, const Judge& judge) {
+void BarrierGraph::add_root(std::vector<BlockingPairs::Pair> pairs, const Judge& judge) {
   BarrierCell& all = cells_.emplace_back();
   all.box = bounds_.rough;
-  all.orientation.chart = chart;
   all.pairs = std::move(pairs);
-  const Id id = ++roots_;
-  judge(id);
-  for (Id other = 0; other < id; ++other) link(other, id);
+  const Id root = kOutside + 1;
+  judge(root);
+  link(kOutside, root);
 }
 
 void BarrierGraph::cut(Id id, const Judge& judge) {
@@ -45,13 +39,8 @@ void BarrierGraph::cut(Id id, const Judge& judge) {
     const BarrierCell& cell = cells_[id];
     BarrierCell half;
     half.box = cell.box;
-    half.orientation = cell.orientation;
     half.pairs = cell.pairs;
-    if (cell.axis == kAngle) {
-      (upper ? half.orientation.low : half.orientation.high)[0] = cell.middle_of_axis();
-    } else {
-      (upper ? half.box.low : half.box.high)[static_cast<Eigen::Index>(cell.axis)] = cell.middle_of_axis();
-    }
+    (upper ? half.box.low : half.box.high)[static_cast<Eigen::Index>(cell.axis)] = cell.middle_of_axis();
     cells_.push_back(std::move(half));
     judge(first + (upper ? 1 : 0));
   }
@@ -65,13 +54,12 @@ void BarrierGraph::cut(Id id, const Judge& judge) {
   }
 }
 
-BarrierGraph::Id BarrierGraph::cell_of(const End& end) const {
-  if (!bounds_.rough.has(end.position)) return kOutside;
-  Id id = end.chart + 1;
+BarrierGraph::Id BarrierGraph::cell_of(const Vector3d& position) const {
+  if (!bounds_.rough.has(position)) return kOutside;
+  Id id = kOutside + 1;
   while (cells_[id].state == State::kCut) {
-    const BarrierCell& lower = cells_[cells_[id].halves[0]];
-    const bool is_lower = lower.box.has(end.position) && end.parameter <= lower.orientation.high[0];
-    id = cells_[id].halves[is_lower ? 0 : 1];
+    const std::array<Id, 2>& halves = cells_[id].halves;
+    id = halves[cells_[halves[0]].box.has(position) ? 0 : 1];
   }
   return id;
 }
@@ -81,21 +69,12 @@ bool BarrierGraph::touches_outside(const PositionBox& box) const {
   return (box.low.array() == all.low.array()).any() || (box.high.array() == all.high.array()).any();
 }
 
-bool BarrierGraph::have_facet_in_common(const BarrierCell& a, const BarrierCell& b) const {
-  std::array<double, 4> gaps{};
+bool BarrierGraph::have_facet_in_common(const PositionBox& a, const PositionBox& b) {
+  std::array<double, 3> gaps{};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto i = static_cast<Eigen::Index>(k);
-    gaps[k] = std::max(a.box.low[i], b.box.low[i]) - std::min(a.box.high[i], b.box.high[i]);
+    gaps[k] = std::max(a.low[i], b.low[i]) - std::min(a.high[i], b.high[i]);
   }
-  // Angles as numbers that go on from chart to chart, two for each.
-  const auto span = [](const OrientationBox<double>& box) {
-    return std::array{2.0 * box.chart + box.low[0], 2.0 * box.chart + box.high[0]};
-  };
-  const auto [low, high] = span(a.orientation);
-  const auto [other_low, other_high] = span(b.orientation);
-  double& turn = gaps[kAngle];
-  turn = std::max(low, other_low) - std::min(high, other_high);
-  if (turn > 0 && circle_ > 0 && std::max(high, other_high) - std::min(low, other_low) == circle_) turn = 0;
   return std::all_of(gaps.begin(), gaps.end(), [](double gap) { return gap <= 0; }) &&
          std::count(gaps.begin(), gaps.end(), 0.0) == 1;
 }
@@ -105,7 +84,7 @@ void BarrierGraph::link(Id a, Id b) {
   const BarrierCell& second = cells_[b];
   if (first.state == State::kBlocked || second.state == State::kBlocked) return;
   if (std::min(a, b) == kOutside ? is_bounded_ || !touches_outside(a == kOutside ? second.box : first.box)
-                                 : !have_facet_in_common(first, second)) {
+                                 : !have_facet_in_common(first.box, second.box)) {
     return;
   }
   cells_[a].neighbours.push_back(b);
@@ -161,8 +140,7 @@ PathProof::PoseCells BarrierGraph::written(const Rational3& reference, std::size
   const std::vector<bool> at_start = reached();
   result.outside_at_start = at_start[kOutside];
   for (std::size_t chart = 0; chart < charts; ++chart) {
-    const bool one = roots_ == 1;
-    result.charts.push_back(written(one ? 1 : static_cast<Id>(chart) + 1, one ? chart : 0, at_start));
+    result.charts.push_back(written(kOutside + 1, chart, at_start));
   }
   return result;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Boxes of poses among which a barrier between start and goal is looked for, and which of them lie next to each other.
+// Boxes of positions among which a barrier between start and goal is looked for, and which of them lie next to each
+// other.
 #pragma once
 
 #include <array>
@@ -16,17 +17,16 @@
 
 namespace nef::planner {
 
-/// Positions of the reference point in a box, and orientations. In a barrier of positions, the orientations are all.
+/// Positions of the reference point in a box.
 struct BarrierCell {
   using Id = std::uint32_t;
   enum class State : std::uint8_t { kOpen, kCut, kBlocked };
 
   PositionBox box;
-  OrientationBox<double> orientation;
   State state = State::kOpen;
   bool is_hopeless = false;                          ///< not to be cut: all of it is free, or it is small
   std::int64_t weight = WeightedGraph::kUncuttable;  ///< about how many boxes it takes to block the way through it
-  std::uint32_t axis = 0;                            ///< where to cut it: a coordinate, or BarrierGraph::kAngle
+  std::uint32_t axis = 0;                            ///< where to cut it: a coordinate
   std::array<Id, 2> halves{};
   std::vector<Id> neighbours;                ///< those that are not blocked; some of them may have been cut
   std::vector<BlockingPairs::Pair> pairs;    ///< that may overlap in it
@@ -37,24 +37,14 @@ struct BarrierCell {
 };
 
 /// A tree of boxes: they are judged and cut by those who look for a barrier. Cells are known by their numbers: kOutside
-/// is what lies beyond the bounds, then come the roots in their order, and the halves of cells that are cut.
+/// is what lies beyond the bounds, then come the root and the halves of cells that are cut.
 class BarrierGraph {
  public:
   using Id = BarrierCell::Id;
   static constexpr Id kOutside = 0;
-  static constexpr std::uint32_t kAngle = 3;  ///< the axis after the coordinates
-  /// Start or goal: the position of the reference point, and the orientation by its chart and parameter there (0 and 0
-  /// in a barrier of positions).
-  struct End {
-    Vector3d position;
-    std::uint32_t chart = 0;
-    double parameter = 0;
-  };
 
-  /// Only outside is there. `reach`: no point of the robot is farther from the reference point. `circle`: how many
-  /// charts there are, if the last one is followed by the first one; else 0.
-  BarrierGraph(const PathProof::Claim& claim, const Rational3& reference, double reach, const std::array<End, 2>& ends,
-               std::size_t circle);
+  /// Only outside is there. `reach`: no point of the robot is farther from the reference point.
+  BarrierGraph(const PathProof::Claim& claim, const Rational3& reference, double reach);
 
   [[nodiscard]] const BarrierBounds& bounds() const { return bounds_; }
   [[nodiscard]] bool is_bounded() const { return is_bounded_; }
@@ -63,8 +53,8 @@ class BarrierGraph {
   [[nodiscard]] const BarrierCell& operator[](Id id) const { return cells_[id]; }
 
   using Judge = std::function<void(Id)>;
-  /// All positions within the bounds, in a chart: a cell that `judge` gives its weight and axis. Charts come in order.
-  void add_root(std::uint32_t chart, std::vector<BlockingPairs::Pair> pairs, const Judge& judge);
+  /// All positions within the bounds: a cell that `judge` gives its weight and axis. To be called once, first.
+  void add_root(std::vector<BlockingPairs::Pair> pairs, const Judge& judge);
   /// Cuts a cell into two halves, which are judged.
   void cut(Id id, const Judge& judge);
 
@@ -76,23 +66,21 @@ class BarrierGraph {
   /// How many cells of that barrier are not known to be blocked.
   [[nodiscard]] std::size_t in_question() const { return in_question_; }
 
-  /// The boxes of a barrier that was found: for each chart those of its root, or of the only one.
+  /// The boxes of a barrier that was found, for each chart.
   [[nodiscard]] PathProof::PoseCells written(const Rational3& reference, std::size_t charts) const;
 
  private:
-  [[nodiscard]] Id cell_of(const End& end) const;
+  [[nodiscard]] Id cell_of(const Vector3d& position) const;
   [[nodiscard]] bool touches_outside(const PositionBox& box) const;
-  [[nodiscard]] bool have_facet_in_common(const BarrierCell& a, const BarrierCell& b) const;
+  [[nodiscard]] static bool have_facet_in_common(const PositionBox& a, const PositionBox& b);
   void link(Id a, Id b);
   [[nodiscard]] std::vector<bool> reached() const;
   [[nodiscard]] PathProof::PoseCell written(Id id, std::size_t chart, const std::vector<bool>& at_start) const;
 
   bool is_bounded_;
   BarrierBounds bounds_;
-  std::array<End, 2> ends_;
-  double circle_;  // the length of all charts, two each, if they are closed
+  std::array<Vector3d, 2> ends_;  // of the reference point
   std::vector<BarrierCell> cells_;
-  Id roots_ = 0;
   bool is_found_ = false;
   std::size_t in_question_ = 0;
 };

@@ -135,7 +135,7 @@ class DepthProgram {
       program_.set_bound(r, piece_.offsets[r] + piece_.normals[r].dot(position));
     }
     const auto found = program_.maximize({0, 0, 0, 1}, limit, least);
-    if (!found) return {{0, 0, 0}, std::min(least, 0.0)};
+    if (!found) return {};
     return {{(*found)[0], (*found)[1], (*found)[2]}, found->back()};
   }
 
@@ -146,17 +146,19 @@ class DepthProgram {
 
 }  // namespace
 
-CommonDepth BlockingPairs::at(const Pair& pair, const TurnedRobot& robot, const Vector3d& position,
-                              double least) const {
-  return DepthProgram(robot.pieces[pair[0]], obstacles_[pair[1]])
-      .at(position, 8 * scale_, least < 0 ? least : resolution());
+CommonDepth BlockingPairs::at(const Pair& pair, const TurnedRobot& robot, const Vector3d& position) const {
+  return DepthProgram(robot.pieces[pair[0]], obstacles_[pair[1]]).at(position, 8 * scale_, resolution());
 }
 
-std::array<CommonDepth, 8> BlockingPairs::at_corners(const Pair& pair, const TurnedRobot& robot,
-                                                     const PositionBox& box) const {
+std::vector<CommonDepth> BlockingPairs::at_all(const Pair& pair, const TurnedRobot& robot,
+                                               std::span<const Vector3d> positions) const {
   DepthProgram program(robot.pieces[pair[0]], obstacles_[pair[1]]);
-  std::array<CommonDepth, 8> result;
-  for (std::size_t i = 0; i < 8; ++i) result[i] = program.at(box.corner(i), 8 * scale_, resolution());
+  std::vector<CommonDepth> result;
+  for (const Vector3d& position : positions) {
+    const CommonDepth depth = program.at(position, 8 * scale_, resolution());
+    if (depth.depth <= resolution()) break;
+    result.push_back(depth);
+  }
   return result;
 }
 

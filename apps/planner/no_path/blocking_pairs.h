@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "apps/planner/free_space/vectors.h"
@@ -44,13 +45,16 @@ struct PositionBox {
   [[nodiscard]] bool has(const Vector3d& p) const {
     return (low.array() <= p.array()).all() && (p.array() <= high.array()).all();
   }
-  [[nodiscard]] Vector3d corner(std::size_t i) const {
-    return {(i & 1) != 0 ? high[0] : low[0], (i & 2) != 0 ? high[1] : low[1], (i & 4) != 0 ? high[2] : low[2]};
+  [[nodiscard]] std::array<Vector3d, 8> corners() const {
+    std::array<Vector3d, 8> result;
+    for (std::size_t i = 0; i < 8; ++i) {
+      result[i] = {(i & 1) != 0 ? high[0] : low[0], (i & 2) != 0 ? high[1] : low[1], (i & 4) != 0 ? high[2] : low[2]};
+    }
+    return result;
   }
 };
 
-/// A point of an obstacle inside of the robot, and how deep. Below zero: there is none, and none even if each of the
-/// robot's points were moved by less than that.
+/// A point of an obstacle inside of the robot, and how deep; 0 if there is none.
 struct CommonDepth {
   Vector3d point{0, 0, 0};
   double depth = 0;
@@ -74,12 +78,12 @@ class BlockingPairs {
   /// Whether a pair may touch at a position of the box, however the robot is turned.
   [[nodiscard]] bool may_meet(const Pair& pair, const PositionBox& box) const;
 
-  /// How a pair overlaps at a position, and at the corners of a box of positions: if it does at all of these, it does
-  /// at all positions of the box. A depth of `least` or below counts as `least`, which is that of no overlap at all.
-  [[nodiscard]] CommonDepth at(const Pair& pair, const TurnedRobot& robot, const Vector3d& position,
-                               double least = 0) const;
-  [[nodiscard]] std::array<CommonDepth, 8> at_corners(const Pair& pair, const TurnedRobot& robot,
-                                                      const PositionBox& box) const;
+  /// How a pair overlaps at a position.
+  [[nodiscard]] CommonDepth at(const Pair& pair, const TurnedRobot& robot, const Vector3d& position) const;
+  /// The same at some positions, in their order, up to the first one at which it does not: if it does at all of them,
+  /// it does at all positions of their hull.
+  [[nodiscard]] std::vector<CommonDepth> at_all(const Pair& pair, const TurnedRobot& robot,
+                                                std::span<const Vector3d> positions) const;
 
   /// How far all positions of the box are beyond a side of the claim's box, and which side (0 to 2 the lower ones, 3 to
   /// 5 the upper ones); below zero if some are not beyond any.
@@ -87,11 +91,8 @@ class BlockingPairs {
 
   /// Lengths below this count as zero.
   [[nodiscard]] double resolution() const { return scale_ * 1e-9; }
-  /// No point of the robot, or of one of its pieces, is farther from the reference point.
-  /// @{
+  /// No point of the robot is farther from the reference point.
   [[nodiscard]] double reach() const { return reach_; }
-  [[nodiscard]] double reach(std::uint32_t piece) const { return robot_[piece].reach; }
-  /// @}
 
  private:
   const Orientations& orientations_;

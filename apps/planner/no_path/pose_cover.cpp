@@ -58,7 +58,12 @@ class Covering {
     }
     --budget_;
     for (const BlockingPairs::Pair& pair : candidates) {
-      if (is_blocked_by(pairs_, pair, robot, part.box, cell)) return true;
+      cell.common = common_points(pairs_, pair, robot, part.box.corners());
+      if (cell.common.empty()) continue;
+      cell.kind = Kind::kBlocked;
+      cell.robot = pair[0];
+      cell.obstacle = pair[1];
+      return true;
     }
     const std::uint32_t axis = choose(part, robot, middle, deepest);
     if (width(part, axis) * (axis < 3 ? 1 : pairs_.reach()) < kSmallest * pairs_.reach()) {
@@ -166,25 +171,23 @@ class Covering {
 
 }  // namespace
 
-bool is_blocked_by(const BlockingPairs& pairs, const BlockingPairs::Pair& pair, const TurnedRobot& robot,
-                   const PositionBox& box, PathProof::PoseCell& cell) {
-  if (robot.pieces[pair[0]].normals.empty()) return false;
-  if (pairs.at(pair, robot, box.middle()).depth <= pairs.resolution()) return false;
-  const std::array<CommonDepth, 8> corners = pairs.at_corners(pair, robot, box);
-  if (std::any_of(corners.begin(), corners.end(),
-                  [&](const CommonDepth& corner) { return corner.depth <= pairs.resolution(); })) {
-    return false;
-  }
-  cell.kind = Kind::kBlocked;
-  cell.robot = pair[0];
-  cell.obstacle = pair[1];
-  for (const CommonDepth& corner : corners) {
-    Rational3& point = cell.common.emplace_back();
+std::vector<Rational3> common_points(const BlockingPairs& pairs, const BlockingPairs::Pair& pair,
+                                     const TurnedRobot& robot, std::span<const Vector3d> corners) {
+  std::vector<Rational3> result;
+  if (robot.pieces[pair[0]].normals.empty()) return result;
+  Vector3d middle = Vector3d::Zero();
+  for (const Vector3d& corner : corners) middle += corner;
+  middle /= static_cast<double>(corners.size());
+  if (pairs.at(pair, robot, middle).depth <= pairs.resolution()) return result;
+  const std::vector<CommonDepth> found = pairs.at_all(pair, robot, corners);
+  if (found.size() < corners.size()) return result;
+  for (const CommonDepth& corner : found) {
+    Rational3& point = result.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
       point[k] = short_number(corner.point[static_cast<Eigen::Index>(k)], corner.depth / 16);
     }
   }
-  return true;
+  return result;
 }
 
 PoseCover cover_poses(const BlockingPairs& pairs, const Orientations& orientations, const PositionBox& box,

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "apps/planner/no_path/blocking_pairs.h"
@@ -24,10 +25,10 @@ struct PoseCover {
   std::optional<OpenPose> open;
 };
 
-/// Whether a pair overlaps at all poses of a box: positions, and orientations for which the robot is turned. Then
-/// `cell` says so.
-bool is_blocked_by(const BlockingPairs& pairs, const BlockingPairs::Pair& pair, const TurnedRobot& robot,
-                   const PositionBox& box, PathProof::PoseCell& cell);
+/// Whether a pair overlaps at all positions of the hull of some corners, at the orientations for which the robot is
+/// turned. Then there is a point of both pieces for each corner.
+std::vector<Rational3> common_points(const BlockingPairs& pairs, const BlockingPairs::Pair& pair,
+                                     const TurnedRobot& robot, std::span<const Vector3d> corners);
 
 /// Cuts a box of positions and all orientations until each part is blocked by one pair of pieces or beyond a side of
 /// the box. Stops at the first part in the middle of which no pair overlaps. `budget` is how many parts may be made,

@@ -23,15 +23,12 @@ PositionBarrier::PositionBarrier(const PathProof::Claim& claim, const Orientatio
       reference_(reference),
       pairs_(claim, orientations, reference),
       monitor_(monitor),
-      graph_(claim, reference, pairs_.reach(),
-             {BarrierGraph::End{reference_position(claim.path.front(), reference)},
-              BarrierGraph::End{reference_position(claim.path.back(), reference)}},
-             0) {
+      graph_(claim, reference, pairs_.reach()) {
   add_samples();
-  graph_.add_root(0, pairs_.all(), [&](CellId id) { judge(id); });
+  graph_.add_root(pairs_.all(), [&](CellId id) { judge(id); });
 }
 
-// The corners, the middle and the middles of the octants of each chart (of its ends and quarters, if it is an arc).
+// The corners, the middle and the middles of the octants of each chart.
 void PositionBarrier::add_samples() {
   for (std::uint32_t chart = 0; chart < orientations_.charts().size(); ++chart) {
     std::vector<std::array<double, 3>> points{{0, 0, 0}};

@@ -7,7 +7,6 @@
 #include "nef/base/error.h"
 
 namespace nef::planner {
-namespace {
 
 bool are_proportional(const Quaternion& p, const Quaternion& q) {
   for (std::size_t i = 0; i < 4; ++i) {
@@ -17,6 +16,8 @@ bool are_proportional(const Quaternion& p, const Quaternion& q) {
   }
   return true;
 }
+
+namespace {
 
 // The component of a quaternion that is a parameter of the chart of component `chart`.
 std::uint32_t component_of(std::uint32_t chart, std::uint32_t parameter) {
@@ -52,7 +53,7 @@ Orientations Orientations::all() {
   return result;
 }
 
-Orientations Orientations::along(std::vector<Quaternion> chain) {
+Orientations Orientations::along(const std::vector<Quaternion>& chain) {
   if (chain.size() < 2) throw InputError("a chain of orientations needs two quaternions");
   Orientations result;
   for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
@@ -66,33 +67,19 @@ Orientations Orientations::along(std::vector<Quaternion> chain) {
       chart.directions[0][k] = (chain[i + 1][k] - chain[i][k]) / 2;
     }
     result.charts_.push_back(std::move(chart));
-    const bool closes = i + 2 == chain.size();
-    if (closes && !are_proportional(chain.front(), chain.back())) continue;
-    const auto next = static_cast<std::uint32_t>(closes ? 0 : i + 1);
-    result.seams_.push_back({static_cast<std::uint32_t>(i), 0, 1, next, 0, -1, 1, {}});
   }
-  result.chain_ = std::move(chain);
   return result;
 }
 
-std::optional<OrientationBox<Rational>> Orientations::locate(const Quaternion& q) const {
+std::optional<OrientationBox<Rational>> Orientations::locate(const Quaternion& q) {
   OrientationBox<Rational> result;
-  if (chain_.empty()) {
-    for (std::uint32_t c = 1; c < 4; ++c) {
-      if (abs(q[c]) > abs(q[result.chart])) result.chart = c;
-    }
-    if (q[result.chart] == 0) return std::nullopt;
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      result.low[k] = result.high[k] = q[component_of(result.chart, k)] / q[result.chart];
-    }
-    return result;
+  for (std::uint32_t c = 1; c < 4; ++c) {
+    if (abs(q[c]) > abs(q[result.chart])) result.chart = c;
   }
-  const auto found =
-      std::find_if(chain_.begin(), chain_.end(), [&](const Quaternion& p) { return are_proportional(p, q); });
-  if (found == chain_.end()) return std::nullopt;
-  const bool last = found + 1 == chain_.end();
-  result.chart = static_cast<std::uint32_t>(found - chain_.begin()) - (last ? 1 : 0);
-  result.low[0] = result.high[0] = last ? 1 : -1;
+  if (q[result.chart] == 0) return std::nullopt;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    result.low[k] = result.high[k] = q[component_of(result.chart, k)] / q[result.chart];
+  }
   return result;
 }
 

@@ -48,28 +48,26 @@ class Orientations {
 
   /// All rotations: four charts of three parameters.
   static Orientations all();
-  /// The arcs from each quaternion of a chain to the next one, one parameter each. If the last is a multiple of the
-  /// first one, the chain is closed. Throws InputError unless there are two and the scalar products of neighbours are
-  /// positive.
-  static Orientations along(std::vector<Quaternion> chain);
+  /// The arcs from each quaternion of a chain to the next one, one parameter each. Throws InputError unless there are
+  /// two and the scalar products of neighbours are positive.
+  static Orientations along(const std::vector<Quaternion>& chain);
 
   [[nodiscard]] const std::vector<Chart>& charts() const { return charts_; }
   /// How many parameters a chart has: 3 or 1.
   [[nodiscard]] std::size_t dimension() const { return charts_.front().directions.size(); }
-  /// Each facet of a chart that is glued, once.
+  /// Of all rotations: each facet of a chart that is glued, once.
   [[nodiscard]] const std::vector<ChartSeam>& seams() const { return seams_; }
-  /// The chain of quaternions; empty for all rotations.
-  [[nodiscard]] const std::vector<Quaternion>& chain() const { return chain_; }
 
-  /// A chart and parameters of a rotation; nothing if it is none of these orientations. Along a chain only its
-  /// quaternions are found, and multiples of them.
-  [[nodiscard]] std::optional<OrientationBox<Rational>> locate(const Quaternion& q) const;
+  /// Of all rotations: a chart and parameters of one; nothing for the zero quaternion.
+  [[nodiscard]] static std::optional<OrientationBox<Rational>> locate(const Quaternion& q);
 
  private:
   std::vector<Chart> charts_;
   std::vector<ChartSeam> seams_;
-  std::vector<Quaternion> chain_;
 };
+
+/// Whether two quaternions stand for the same rotation: one is a multiple of the other.
+bool are_proportional(const Quaternion& p, const Quaternion& q);
 
 /// A matrix, and the positive number that divides it.
 template <class Number>

@@ -51,6 +51,9 @@ struct PathProof {
     /// kInfeasible: the robot may turn; any way, if there are no quaternions, or along the arcs from each quaternion to
     /// the next one (Orientations).
     std::optional<std::vector<Quaternion>> rotations;
+    /// The numbers of start and goal in that chain, if orientations that come again in it are different ones: in a
+    /// range wider than a full turn.
+    std::optional<std::array<std::uint32_t, 2>> places;
   };
   /// A plane with this normal lies between what a piece of the robot sweeps, on the lower side, and an obstacle's.
   struct Plane {
@@ -123,6 +126,32 @@ struct PathProof {
     std::vector<PoseCell> charts;     ///< a box for each chart
   };
 
+  /// The hull of three or four positions (a triangle, a tetrahedron) at a range of orientations. None of these poses is
+  /// free: the positions are beyond one side of the claim's box, or a piece of the robot overlaps an obstacle's.
+  struct BlockedSimplex {
+    struct Hit {
+      std::uint32_t robot = 0;
+      std::uint32_t obstacle = 0;
+      /// For each corner a point of the obstacle that is inside the inner piece (see mixed_rotations) there.
+      std::vector<Rational3> common;
+    };
+    std::vector<std::uint32_t> corners;  ///< numbers of points
+    std::optional<Hit> hit;              ///< nothing for one beyond a side
+  };
+  /// A range of orientations in a chart of one parameter, from where the layer before ends.
+  struct Layer {
+    Rational until;                       ///< the parameter, up to 1
+    std::vector<BlockedSimplex> barrier;  ///< triangles without a border modulo 2, blocked at all of the orientations
+    /// Tetrahedra that are blocked at the orientation `until`: modulo 2 they fill what is between the barrier and that
+    /// of the next layer.
+    std::vector<BlockedSimplex> closing;
+  };
+  /// A barrier of positions and orientations along a chain of arcs.
+  struct Layers {
+    std::vector<Rational3> points;
+    std::vector<std::vector<Layer>> charts;  ///< for each arc of the chain
+  };
+
   /// Why a position is tight. Directions are cut into cones; in all directions of a cone but those along the passage
   /// the robot collides at once, by one contact.
   struct Tight {
@@ -152,7 +181,8 @@ struct PathProof {
   std::optional<Collision> collision;      ///< of a path that collides
   std::optional<std::size_t> outside;      ///< of a path that collides: the number of a pose outside the box
   std::optional<Barrier> barrier;          ///< if there is no path of translations
-  std::optional<PoseCells> cells;          ///< if there is no path of a robot that turns
+  std::optional<PoseCells> cells;          ///< if there is no path of a robot that turns about all axes
+  std::optional<Layers> layers;            ///< if there is none of one that turns along a chain of arcs
   std::vector<Tight> tight;                ///< of each pose, if these are tight
 };
 
@@ -182,8 +212,8 @@ std::optional<PathProof> make_tight_proof(const Scene& scene, const FreeSpace& f
 
 /// What is wrong with a proof; nothing if its claim holds. Everything is rational, and nothing of the search is used:
 /// no doubles, no tree, and of hulls and boxes of orientations (orientation_cells.h) only what a proof of no path of a
-/// robot that turns is about. O(parts pieces of the robot times pieces of obstacles); O(n) for n boxes of poses, where
-/// `monitor` can stop it (Interrupted).
+/// robot that turns is about. O(parts pieces of the robot times pieces of obstacles); O(n log n) for n boxes of poses,
+/// or triangles and tetrahedra in layers, where `monitor` can stop it (Interrupted).
 std::optional<std::string> complaint_about(const PathProof& proof, const Monitor& monitor = {});
 
 /// What is different between a claim and a scene; nothing if the claim is about the scene. The pieces are united and

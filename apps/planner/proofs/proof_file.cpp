@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "apps/planner/proofs/layers_file.h"
 #include "apps/planner/proofs/pose_cells_file.h"
 #include "apps/planner/proofs/proof_reader.h"
 #include "apps/program/exact_json.h"
@@ -34,6 +35,7 @@ json claim_json(const PathProof::Claim& claim) {
               {"path", std::move(path)}};
   if (claim.status == Status::kTight) result["along"] = pieces_json(claim.along);
   if (claim.rotations) result["rotations"] = rotations_json(*claim.rotations);
+  if (claim.places) result["places"] = *claim.places;
   return result;
 }
 
@@ -114,7 +116,7 @@ RigidPose read_pose(const JsonReader& pose) {
 }
 
 PathProof::Claim read_claim(const JsonReader& claim) {
-  claim.require_keys({"status", "contact", "box", "robot", "obstacles", "path"}, {"along", "rotations"});
+  claim.require_keys({"status", "contact", "box", "robot", "obstacles", "path"}, {"along", "rotations", "places"});
   PathProof::Claim result;
   result.status = static_cast<Status>(claim["status"].word(kStatusNames));
   result.contact = static_cast<ContactRule>(claim["contact"].word(std::array{"allow", "forbid"}));
@@ -130,6 +132,11 @@ PathProof::Claim read_claim(const JsonReader& claim) {
   if (claim.has("rotations")) {
     if (result.status != Status::kInfeasible) claim.fail("only a claim of no path has \"rotations\"");
     result.rotations = read_rotations(claim["rotations"]);
+  }
+  if (claim.has("places")) {
+    if (!result.rotations || result.rotations->empty())
+      claim.fail("only a claim about a chain of rotations has \"places\"");
+    result.places = claim["places"].exactly<2>(proof_index);
   }
   return result;
 }
@@ -224,6 +231,7 @@ std::string proof_text(const PathProof& proof) {
   if (proof.outside) witness["outside"] = *proof.outside;
   if (proof.barrier) witness["barrier"] = barrier_json(*proof.barrier);
   if (proof.cells) witness["cells"] = pose_cells_json(*proof.cells, proof.claim.box.has_value());
+  if (proof.layers) witness["layers"] = layers_json(*proof.layers);
   if (proof.claim.status == Status::kTight) {
     witness["places"] = json::array();
     for (const PathProof::Tight& tight : proof.tight) witness["places"].push_back(tight_json(tight));
@@ -243,6 +251,9 @@ PathProof parse_proof(const std::string& text, const std::string& name) {
   if (proof.claim.status == Status::kFree) {
     witness.require_keys({"motions"});
     proof.motions = witness["motions"].list([](const JsonReader& motion) { return motion.list(read_part); });
+  } else if (proof.claim.rotations && !proof.claim.rotations->empty()) {
+    witness.require_keys({"layers"});
+    proof.layers = read_layers(witness["layers"]);
   } else if (proof.claim.rotations) {
     witness.require_keys({"cells"});
     proof.cells = read_pose_cells(witness["cells"], proof.claim.box.has_value());

@@ -74,7 +74,7 @@ class RigidPlanning {
   bool search_proof(std::size_t boxes) {
     if (proofs_are_done_) return false;
     NoPathAnswer found;
-    if (boxes > 0) found = prove_no_rigid_path(checker_, question_.start, question_.goal, {}, {boxes}, monitor_);
+    if (boxes > 0) found = prove_no_rigid_path(checker_, question_.start, question_.goal, {boxes}, monitor_);
     answer_.boxes = found.cells;
     proofs_are_done_ = found.proof || found.cells < boxes || boxes == limits_.max_boxes;
     if (!found.proof) return false;

@@ -5,7 +5,7 @@
 #include <pybind11/stl.h>
 
 #include "apps/planner/clearance/widest_robot.h"
-#include "apps/planner/no_path/no_rigid_path.h"
+#include "apps/planner/no_path/turning_barrier.h"
 #include "apps/planner/path/question.h"
 #include "apps/planner/proofs/make/answer_proof.h"
 #include "apps/planner/proofs/proof_file.h"
@@ -110,6 +110,13 @@ struct TurningProofOfScene {
       return plan::complaint_about(self.proof, self.scene, self.question, monitor);
     });
     return found ? py::object(py::str(*found)) : py::none();
+  }
+  // The text of the same proof as a file; None if there is none.
+  [[nodiscard]] py::object text() const {
+    const std::optional<plan::PathProof> found = call(kSmallCall, [self = *this](const Monitor& monitor) {
+      return plan::make_turning_proof(self.scene, self.proof, monitor);
+    });
+    return found ? py::object(py::str(plan::proof_text(*found))) : py::none();
   }
   [[nodiscard]] std::size_t cells() const { return proof.cells.size(); }
 };
@@ -296,13 +303,6 @@ py::object prove_path(const plan::Scene& scene, const py::sequence& path) {
   return proof ? py::object(py::str(plan::proof_text(*proof))) : py::none();
 }
 
-// The text of a proof that a robot that turns about an axis has no path; None if there is none.
-py::object prove_no_path(const plan::Scene& scene) {
-  const plan::NoPathAnswer found =
-      call(kSmallCall, [scene](const Monitor& monitor) { return plan::prove_no_rigid_path(scene, {}, monitor); });
-  return found.proof ? py::object(py::str(plan::proof_text(*found.proof))) : py::none();
-}
-
 // What is wrong with the text of a proof, by itself and as one about a scene; None if it holds.
 py::object complaint_about(const plan::Scene& scene, const std::string& text) {
   const plan::PathProof proof = plan::parse_proof(text, "the proof");
@@ -469,7 +469,6 @@ void define_module(py::module_& m) {
       .def("invalid_end", &invalid_end)
       .def("certify", &certify)
       .def("prove_path", &prove_path)
-      .def("prove_no_path", &prove_no_path)
       .def("complaint", &complaint_about)
       .def_property_readonly("turns_freely", [](const plan::Scene& s) { return s.turns_freely; })
       .def_property_readonly("start", [](const plan::Scene& s) { return end_of(s, 0); })
@@ -483,6 +482,7 @@ void define_module(py::module_& m) {
   });
   py::class_<TurningProofOfScene>(m, "TurningProof")
       .def("complaint", &TurningProofOfScene::complaint)
+      .def("text", &TurningProofOfScene::text)
       .def_property_readonly("cells", &TurningProofOfScene::cells);
   m.def("read_poses", &read_poses);
   m.def("solve_turning", &solve_turning);

@@ -70,7 +70,7 @@ TEST_CASE("Strokes choose what the object is") {
   CHECK(common_share(cut(one), painted.blue) > 0.97);
 }
 
-TEST_CASE("Without red the margins are background; likely pixels follow the nearest stroke") {
+TEST_CASE("Without red the margins are background, and likely pixels follow the nearest one") {
   cv::Mat strokes(100, 100, CV_8UC3, cv::Scalar(90, 90, 90));
   cv::line(strokes, {40, 50}, {60, 50}, kGreen, kThick);
   const cv::Mat seeds = seeds_from_strokes(strokes, "strokes");

@@ -6,12 +6,11 @@
 #include <iostream>
 
 #include "apps/planner/command/findings.h"
-#include "apps/planner/no_path/no_rigid_path.h"
+#include "apps/planner/no_path/turning_barrier.h"
 #include "apps/planner/proofs/make/answer_proof.h"
 #include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid/certified_path.h"
 #include "apps/planner/rigid/pose_file.h"
-#include "nef/base/counted.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 
@@ -59,15 +58,12 @@ void write_translation_proof(const Arguments& a, const Scene& scene, const FreeS
 void write_turning_proof(const Arguments& a, const Scene& scene, const TurningAnswer& answer) {
   if (a.proof.empty()) return;
   if (answer.status == TurningAnswer::Status::kInfeasible) {
-    NoPathLimits limits;
-    if (a.app->count("--max-cells") > 0) limits.max_cells = a.max_cells;
-    const NoPathAnswer found = prove_no_rigid_path(scene, limits, a.session.monitor);
-    if (found.proof) {
-      write_file(a.proof, proof_text(*found.proof));
+    if (const auto proof = make_turning_proof(scene, *answer.proof, a.session.monitor)) {
+      write_file(a.proof, proof_text(*proof));
     } else {
-      std::cerr << "planner: " << a.proof << " was not written: no barrier was found with "
-                << counted(found.cells, "box", "boxes")
-                << " of poses (--max-cells); the report (-o FILE.json) has a proof by cells of angles\n";
+      std::cerr << "planner: " << a.proof
+                << " was not written: no distance, or only surfaces, separate start and goal; "
+                << "the report (-o FILE.json) has a proof by cells of angles\n";
     }
     return;
   }

@@ -31,6 +31,7 @@ class BarrierCheck {
       if (pose.quaternion != Quaternion{1, 0, 0, 0}) return "start and goal must not be turned";
     }
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> edges;
+    std::vector<Corners> placed;
     for (std::size_t t = 0; t < barrier_.triangles.size(); ++t) {
       const PathProof::Triangle& triangle = barrier_.triangles[t];
       for (std::size_t k = 0; k < 3; ++k) {
@@ -38,12 +39,13 @@ class BarrierCheck {
         ++edges[std::minmax(triangle.corners[k], triangle.corners[(k + 1) % 3])];
       }
       if (!is_closed(triangle)) return "triangle " + std::to_string(t) + " can be crossed";
+      placed.push_back(corners_of(triangle));
     }
     for (const auto& [edge, count] : edges) {
       if (count % 2 != 0) return "an edge belongs to an odd number of triangles";
     }
-    const std::optional<bool> start = crosses_odd(claim_.path.front().position);
-    const std::optional<bool> goal = crosses_odd(claim_.path.back().position);
+    const std::optional<bool> start = crosses_odd(placed, claim_.path.front().position);
+    const std::optional<bool> goal = crosses_odd(placed, claim_.path.back().position);
     if (!start || !goal) return "no ray misses the edges, or start or goal is on the barrier";
     if (*start == *goal) return "start and goal are on the same side of the barrier";
     return std::nullopt;
@@ -58,7 +60,7 @@ class BarrierCheck {
   // Whether no position on the triangle is free.
   [[nodiscard]] bool is_closed(const PathProof::Triangle& triangle) const {
     const Corners corners = corners_of(triangle);
-    if (!triangle.hit) return is_beyond_a_side(corners);
+    if (!triangle.hit) return is_beyond_a_side(claim_.box, corners);
     const PathProof::Triangle::Hit& hit = *triangle.hit;
     if (hit.robot >= claim_.robot.size() || hit.obstacle >= claim_.obstacles.size()) return false;
     const std::vector<Rational3>& robot = claim_.robot[hit.robot];
@@ -71,49 +73,6 @@ class BarrierCheck {
       if (!a || !b || minus(*b, *a) != corners[k]) return false;
     }
     return true;
-  }
-
-  [[nodiscard]] bool is_beyond_a_side(const Corners& corners) const {
-    if (!claim_.box) return false;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto below = [&](const Rational3& p) { return p[k] < (*claim_.box)[0][k]; };
-      const auto above = [&](const Rational3& p) { return p[k] > (*claim_.box)[1][k]; };
-      if (std::all_of(corners.begin(), corners.end(), below)) return true;
-      if (std::all_of(corners.begin(), corners.end(), above)) return true;
-    }
-    return false;
-  }
-
-  // Whether a ray crosses an odd number of triangles; nothing if no ray that is tried can tell.
-  [[nodiscard]] std::optional<bool> crosses_odd(const Rational3& from) const {
-    constexpr int kRays = 100;
-    for (int ray = 0; ray < kRays; ++ray) {
-      const Rational3 direction{1000, 7 + 13 * ray, 11 + 17 * ray * ray};
-      bool odd = false;
-      const bool told =
-          std::all_of(barrier_.triangles.begin(), barrier_.triangles.end(), [&](const PathProof::Triangle& triangle) {
-            const std::optional<bool> crossed = crosses(corners_of(triangle), from, direction);
-            if (crossed && *crossed) odd = !odd;
-            return crossed.has_value();
-          });
-      if (told) return odd;
-    }
-    return std::nullopt;
-  }
-
-  static std::optional<bool> crosses(const Corners& corners, const Rational3& from, const Rational3& direction) {
-    std::array<int, 3> sides{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      sides[k] = sgn(dot(direction, cross(minus(corners[k], from), minus(corners[(k + 1) % 3], from))));
-    }
-    if (*std::min_element(sides.begin(), sides.end()) < 0 && *std::max_element(sides.begin(), sides.end()) > 0) {
-      return false;  // the line misses the triangle
-    }
-    if (std::any_of(sides.begin(), sides.end(), [](int side) { return side == 0; })) return std::nullopt;
-    const Rational3 normal = cross(minus(corners[1], corners[0]), minus(corners[2], corners[0]));
-    const int height = sgn(dot(normal, minus(corners[0], from)));
-    if (height == 0) return std::nullopt;
-    return height == sgn(dot(normal, direction));
   }
 
   const PathProof::Claim& claim_;

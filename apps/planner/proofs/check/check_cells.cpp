@@ -2,21 +2,15 @@
 //
 // 1. The bounds enclose all positions of the reference point: if the claim has a box, by what that point may be away
 //    from the origin. Without a box, all boxes at the bounds are on the side of what is beyond.
-// 2. A box is blocked: each corner has a point of the obstacle that is inside the inner piece there. Obstacle, inner
-//    piece and box are convex, so all positions of the box have such a point, and the inner piece is in the turned
-//    robot.
+// 2. A box is blocked: each corner has a point of the obstacle that is inside the inner piece there (blocked_poses.h).
 // 3. No box on the side of the start has a facet in common with one on that of the goal. A path that meets no blocked
 //    box can be moved off the edges of boxes, so it goes from box to box through facets. So it stays on its side.
 #include <algorithm>
 #include <functional>
-#include <map>
 
-#include "apps/planner/free_space/hulls_apart.h"
 #include "apps/planner/orientation/orientation_cells.h"
+#include "apps/planner/proofs/check/blocked_poses.h"
 #include "apps/planner/proofs/check/check_parts.h"
-#include "nef/base/error.h"
-#include "nef/construct/convex_hull.h"
-#include "nef/geometry/integer_vector.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef::planner {
@@ -71,23 +65,16 @@ bool meet_at(const ChartSeam& seam, const PoseBox& a, const PoseBox& b) {
 class CellsCheck {
  public:
   CellsCheck(const PathProof& proof, const Monitor& monitor)
-      : claim_(proof.claim), cells_(*proof.cells), monitor_(monitor) {}
+      : claim_(proof.claim),
+        cells_(*proof.cells),
+        monitor_(monitor),
+        orientations_(Orientations::all()),
+        blocked_(proof.claim, orientations_, cells_.reference) {}
 
   CellsComplaint run() {
     if (claim_.path.size() != 2) return "the path must be two poses, start and goal";
-    try {
-      orientations_.emplace(claim_.rotations->empty() ? Orientations::all() : Orientations::along(*claim_.rotations));
-    } catch (const InputError& error) {
-      return error.what();
-    }
-    if (cells_.charts.size() != orientations_->charts().size()) return "there must be a box for each chart";
+    if (cells_.charts.size() != orientations_.charts().size()) return "there must be a box for each chart";
     if (CellsComplaint complaint = check_bounds()) return complaint;
-    for (const std::vector<Rational3>& piece : claim_.robot) {
-      std::vector<Rational3> shifted;
-      for (const Rational3& v : piece) shifted.push_back(minus(v, cells_.reference));
-      robot_.push_back(faces_of(shifted));
-    }
-    for (const std::vector<Rational3>& piece : claim_.obstacles) obstacles_.push_back(faces_of(piece));
     for (std::uint32_t chart = 0; chart < cells_.charts.size(); ++chart) {
       BoxNode& root = roots_.emplace_back();
       root.box.chart = chart;
@@ -107,11 +94,6 @@ class CellsCheck {
   }
 
  private:
-  static std::vector<HalfSpace> faces_of(const std::vector<Rational3>& vertices) {
-    const Hull hull = hull_of(vertices);
-    return hull.dimension < 3 ? std::vector<HalfSpace>{} : half_spaces_of(hull.mesh);
-  }
-
   [[nodiscard]] CellsComplaint check_bounds() const {
     const Rational away = dot(cells_.reference, cells_.reference);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -138,8 +120,8 @@ class CellsCheck {
         return "a box at the bounds is not on the side of what is beyond";
       return std::nullopt;
     }
-    if (cell.axis > 5 || cell.axis >= 3 + orientations_->dimension() || cell.halves.size() != 2 ||
-        cell.at <= node.box.low[cell.axis] || cell.at >= node.box.high[cell.axis]) {
+    if (cell.axis > 5 || cell.halves.size() != 2 || cell.at <= node.box.low[cell.axis] ||
+        cell.at >= node.box.high[cell.axis]) {
       return "a box is cut outside of it";
     }
     for (const bool upper : {false, true}) {
@@ -161,68 +143,26 @@ class CellsCheck {
     return false;
   }
 
-  [[nodiscard]] std::vector<ScaledMatrix<Rational>> matrices_of(const PoseBox& box) const {
-    return mixed_rotations(*orientations_,
-                           {box.chart, {box.low[3], box.low[4], box.low[5]}, {box.high[3], box.high[4], box.high[5]}});
-  }
-
-  static Rational3 product(const ScaledMatrix<Rational>& m, const Rational3& v) {
-    Rational3 result;
-    for (std::size_t i = 0; i < 3; ++i) result[i] = dot(m.rows[i], v);
-    return result;
+  static OrientationBox<Rational> orientations_of(const PoseBox& box) {
+    return {box.chart, {box.low[3], box.low[4], box.low[5]}, {box.high[3], box.high[4], box.high[5]}};
   }
 
   [[nodiscard]] CellsComplaint complaint_about_blocked(const PoseBox& box, const PathProof::PoseCell& cell) const {
-    if (cell.robot >= robot_.size() || cell.obstacle >= obstacles_.size())
-      return "a blocked box names a piece that does not exist";
-    const std::vector<HalfSpace>& piece = robot_[cell.robot];
-    const std::vector<HalfSpace>& obstacle = obstacles_[cell.obstacle];
-    if (piece.empty() || obstacle.empty()) return "a flat piece blocks nothing";
-    if (cell.common.size() != 8) return "a blocked box has a point for each corner";
-    const std::vector<ScaledMatrix<Rational>> matrices = matrices_of(box);
-    if (matrices.empty()) return "a blocked box has too many orientations";
-    std::array<Scaled, 8> inside;  // each point, seen from its corner
+    std::array<Rational3, 8> corners;
     for (std::size_t i = 0; i < 8; ++i) {
-      const Rational3& point = cell.common[i];
-      Rational3 corner;
-      for (std::size_t k = 0; k < 3; ++k) corner[k] = ((i >> k) & 1) != 0 ? box.high[k] : box.low[k];
-      inside[i] = scaled(minus(point, corner));
-      const bool is_in = std::all_of(obstacle.begin(), obstacle.end(),
-                                     [&](const HalfSpace& face) { return dot(face.normal, point) <= face.offset; });
-      if (!is_in) return "a point of a blocked box is not in the obstacle";
+      for (std::size_t k = 0; k < 3; ++k) corners[i][k] = ((i >> k) & 1) != 0 ? box.high[k] : box.low[k];
     }
-    for (const HalfSpace& face : piece) {
-      for (const ScaledMatrix<Rational>& m : matrices) {
-        const Scaled normal = scaled(product(m, face.normal));
-        const Rational most = face.offset * m.scale * normal.scale;
-        for (const Scaled& point : inside) {
-          if (dot(normal.vector, point.vector) * most.get_den() >= most.get_num() * point.scale) {
-            return "a point of a blocked box is not inside the robot";
-          }
-        }
-      }
-    }
-    return std::nullopt;
-  }
-
-  // An integer vector that is a positive multiple of a rational one: products of those need no common divisors.
-  struct Scaled {
-    Integer3 vector;
-    Integer scale;
-  };
-  static Scaled scaled(const Rational3& v) {
-    const Integer scale = common_denominator(v);
-    return {times(v, scale), scale};
+    return blocked_.complaint(orientations_of(box), corners, cell.robot, cell.obstacle, cell.common);
   }
 
   // The origin of the robot is at x - R(q) reference.
   [[nodiscard]] CellsComplaint complaint_about_beyond(const PoseBox& box, const PathProof::PoseCell& cell) const {
     if (!claim_.box || cell.side > 5) return "there is no such side of the box";
     const std::size_t k = cell.side % 3;
-    const std::vector<ScaledMatrix<Rational>> matrices = matrices_of(box);
+    const std::vector<ScaledMatrix<Rational>> matrices = mixed_rotations(orientations_, orientations_of(box));
     if (matrices.empty()) return "a box beyond a side has too many orientations";
     for (const ScaledMatrix<Rational>& m : matrices) {
-      const Rational reference = product(m, cells_.reference)[k] / m.scale;
+      const Rational reference = scaled_product(m, cells_.reference)[k] / m.scale;
       if (cell.side < 3 ? box.high[k] - reference >= (*claim_.box)[0][k]
                         : box.low[k] - reference <= (*claim_.box)[1][k]) {
         return "a box is not beyond the side of the claim's box";
@@ -234,7 +174,7 @@ class CellsCheck {
   [[nodiscard]] bool are_sides_apart() const {
     if (!std::all_of(roots_.begin(), roots_.end(), [](const BoxNode& root) { return is_apart_inside(root); }))
       return false;
-    const std::vector<ChartSeam>& seams = orientations_->seams();
+    const std::vector<ChartSeam>& seams = orientations_.seams();
     return std::all_of(seams.begin(), seams.end(), [&](const ChartSeam& seam) {
       return are_apart(roots_[seam.chart], roots_[seam.other],
                        [&](const PoseBox& a, const PoseBox& b) { return meet_at(seam, a, b); });
@@ -262,7 +202,7 @@ class CellsCheck {
   }
 
   [[nodiscard]] bool is_on_side(const RigidPose& pose, Kind side) const {
-    const std::optional<OrientationBox<Rational>> orientation = orientations_->locate(pose.quaternion);
+    const std::optional<OrientationBox<Rational>> orientation = orientations_.locate(pose.quaternion);
     if (!orientation) return false;
     const Matrix3 turn = rotation_between(pose.quaternion, pose.quaternion);
     PoseBox at;
@@ -288,9 +228,8 @@ class CellsCheck {
   const PathProof::Claim& claim_;
   const PathProof::PoseCells& cells_;
   const Monitor& monitor_;
-  std::optional<Orientations> orientations_;
-  std::vector<std::vector<HalfSpace>> robot_;  // seen from the reference point; none for flat pieces
-  std::vector<std::vector<HalfSpace>> obstacles_;
+  Orientations orientations_;
+  BlockedPoses blocked_;
   std::vector<BoxNode> roots_;
 };
 

@@ -36,6 +36,13 @@ bool is_along(std::span<const Rational3> along, const Rational3& direction);
 /// largest power of two with which it is not the longer one: a direction near to the middle of theirs.
 Rational3 balanced_sum(const Rational3& a, const Rational3& b);
 
+/// Whether all of some points are beyond the same side of a box; false without a box.
+bool is_beyond_a_side(const std::optional<std::array<Rational3, 2>>& box, std::span<const Rational3> points);
+
+/// Whether a ray from a point crosses an odd number of triangles. A ray through an edge or a corner does not count, so
+/// others are tried; nothing if all of them are such, or the point is in the plane of a triangle that they cross. O(n).
+std::optional<bool> crosses_odd(std::span<const std::array<Rational3, 3>> triangles, const Rational3& from);
+
 /// What is wrong with the proof that all positions near pose number `pose` are along its passage; nothing if they are.
 std::optional<std::string> complaint_about_tight(const PathProof& proof, std::size_t pose);
 
@@ -44,8 +51,13 @@ std::optional<std::string> complaint_about_tight(const PathProof& proof, std::si
 std::optional<std::string> complaint_about_barrier(const PathProof& proof);
 
 /// What is wrong with the boxes of poses of a proof, which must have some; nothing if no path of translations and
-/// rotations leads from the first pose to the last. O(n) exact tests for n boxes, and one for each pair of neighbours;
-/// `monitor` can stop it (Interrupted).
+/// rotations about all axes leads from the first pose to the last. O(n) exact tests for n boxes, and one for each pair
+/// of neighbours; `monitor` can stop it (Interrupted).
 std::optional<std::string> complaint_about_cells(const PathProof& proof, const Monitor& monitor);
+
+/// What is wrong with the layers of a proof, which must have some; nothing if no path of translations and rotations
+/// along the claim's chain of arcs leads from the first pose to the last. O(n log n) exact tests for n triangles and
+/// tetrahedra; `monitor` can stop it (Interrupted).
+std::optional<std::string> complaint_about_layers(const PathProof& proof, const Monitor& monitor);
 
 }  // namespace nef::planner

@@ -86,7 +86,8 @@ class PathCheck {
       case Status::kTight:
         return check_tight();
       default:
-        return claim_.rotations ? complaint_about_cells(proof_, monitor_) : complaint_about_barrier(proof_);
+        if (proof_.layers) return complaint_about_layers(proof_, monitor_);
+        return proof_.cells ? complaint_about_cells(proof_, monitor_) : complaint_about_barrier(proof_);
     }
   }
 
@@ -109,8 +110,16 @@ class PathCheck {
              "neither";
     }
     if (claim_.rotations && claim_.status != Status::kInfeasible) return "only a claim of no path names rotations";
-    if (proof_.cells.has_value() != claim_.rotations.has_value()) {
-      return "the proof that there is no path of a robot that turns needs boxes of poses, and other proofs have none";
+    const bool has_chain = claim_.rotations && !claim_.rotations->empty();
+    if (claim_.places && !has_chain) return "only a chain of rotations has places";
+    if (proof_.cells.has_value() != (claim_.rotations && !has_chain)) {
+      return "the proof that there is no path of a robot that turns about all axes needs boxes of poses, and other "
+             "proofs "
+             "have none";
+    }
+    if (proof_.layers.has_value() != has_chain) {
+      return "the proof that there is no path of a robot that turns about one axis needs layers, and other proofs have "
+             "none";
     }
     if (proof_.barrier.has_value() != (claim_.status == Status::kInfeasible && !claim_.rotations)) {
       return "the proof that there is no path needs a barrier, and other proofs have none";
@@ -289,7 +298,9 @@ Complaint compare_rotations(const PathProof::Claim& claim, const Scene& scene) {
   }
   if (!claim.rotations) return std::nullopt;
   const RotationClaim meant = rotation_claim_of(scene);
-  if (*claim.rotations != meant.chain) return "the robot of the scene has other rotations";
+  if (*claim.rotations != meant.chain || claim.places != meant.places) {
+    return "the robot of the scene has other rotations";
+  }
   const auto same = [](const RigidPose& a, const RigidPose& b) {
     return a.position == b.position && a.quaternion == b.quaternion;
   };

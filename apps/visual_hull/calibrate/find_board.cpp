@@ -22,29 +22,17 @@ SeenBoard find_board(const cv::Mat& picture, const Board& board) {
   if (scale > 1) cv::resize(gray, gray, cv::Size(), scale, scale, cv::INTER_CUBIC);
   std::vector<std::vector<cv::Point2f>> markers;
   std::vector<int> ids;
-  const auto parameters = cv::aruco::DetectorParameters::create();
-  parameters->cornerRefinementMethod = cv::aruco::CORNER_REFINE_SUBPIX;
-  cv::aruco::detectMarkers(gray, definition->dictionary, markers, ids, parameters);
+  cv::aruco::detectMarkers(gray, definition->dictionary, markers, ids, cv::aruco::DetectorParameters::create());
   SeenBoard seen;
   if (ids.size() < 2) return seen;
-  const auto add = [&](const Eigen::Vector3d& corner, const cv::Point2f& point) {
+  std::vector<cv::Point2f> points;
+  cv::aruco::interpolateCornersCharuco(markers, ids, gray, definition, points, seen.numbers);
+  const std::vector<Eigen::Vector3d> corners = board_corners(board);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Eigen::Vector3d& corner = corners[static_cast<std::size_t>(seen.numbers[k])];
     seen.corners.emplace_back(corner.x(), corner.y(), corner.z());
     // Whole numbers are centres of pixels in both.
-    seen.points.emplace_back((point.x + 0.5) / scale - 0.5, (point.y + 0.5) / scale - 0.5);
-  };
-  std::vector<cv::Point2f> points;
-  std::vector<int> numbers;
-  cv::aruco::interpolateCornersCharuco(markers, ids, gray, definition, points, numbers);
-  const std::vector<Eigen::Vector3d> corners = board_corners(board);
-  for (std::size_t k = 0; k < points.size(); ++k) add(corners[static_cast<std::size_t>(numbers[k])], points[k]);
-  for (std::size_t m = 0; m < ids.size(); ++m) {
-    const auto known = std::find(definition->ids.begin(), definition->ids.end(), ids[m]);
-    if (known == definition->ids.end()) continue;  // of another board of the same dictionary
-    const auto& places = definition->objPoints[static_cast<std::size_t>(known - definition->ids.begin())];
-    for (std::size_t k = 0; k < places.size(); ++k) {
-      // OpenCV's origin is the upper left corner of the board, its y goes down.
-      add({places[k].x - board.width() / 2, board.height() / 2 - places[k].y, 0}, markers[m][k]);
-    }
+    seen.points.emplace_back((points[k].x + 0.5) / scale - 0.5, (points[k].y + 0.5) / scale - 0.5);
   }
   return seen;
 }

@@ -82,6 +82,7 @@ struct PathProof {
   struct Triangle {
     std::array<std::uint32_t, 3> corners{};  ///< numbers of points
     /// The pieces that overlap, and a common point for each corner.
+    /// Two pieces that overlap, by their numbers.
     struct Hit {
       std::uint32_t robot = 0;
       std::uint32_t obstacle = 0;

@@ -43,7 +43,7 @@ struct Tally {
 };
 
 // A place on a line where a view begins or ceases to see it in its silhouette.
-struct Event {
+struct SightEvent {
   double s = 0;
   std::uint32_t view = 0;
   std::int32_t rejecting = 0;  // views more than before: -1 or 1
@@ -51,9 +51,9 @@ struct Event {
 
 // A line of sight.
 struct SightLine {
-  DepthInterval range;        // in the box
-  std::vector<Event> events;  // of one view after the other
-  std::size_t seen = 0;       // by how many other views, anywhere
+  DepthInterval range;             // in the box
+  std::vector<SightEvent> events;  // of one view after the other
+  std::size_t seen = 0;            // by how many other views, anywhere
   // Where the last three of these begin to see it, the last one first, and where the first three see it no more.
   std::array<double, 3> begins{};
   std::array<double, 3> ends{};
@@ -135,8 +135,8 @@ struct Lines {
 };
 
 // By depth.
-void sort_events(std::vector<Event>& events) {
-  std::sort(events.begin(), events.end(), [](const Event& a, const Event& b) { return a.s < b.s; });
+void sort_events(std::vector<SightEvent>& events) {
+  std::sort(events.begin(), events.end(), [](const SightEvent& a, const SightEvent& b) { return a.s < b.s; });
 }
 
 // The views that reject a point: as long as they are one or two, sums over their numbers tell which.
@@ -152,7 +152,7 @@ struct Rejecting {
     return {m - 1, m * (m - 1) / 2 - v, (m - 1) * m * (2 * m - 1) / 6 - v * v};
   }
 
-  void happens(const Event& e, std::int64_t weight) {
+  void happens(const SightEvent& e, std::int64_t weight) {
     const std::int64_t view = e.view;
     count += weight;
     sum += weight * view;
@@ -204,7 +204,7 @@ Tally tally_of(const Lines& lines, std::size_t i) {
     };
     // What comes before that part only counts, what comes behind it does not; without branches, as either is as likely.
     std::size_t kept = 0;
-    for (const Event e : line.events) {
+    for (const SightEvent e : line.events) {
       const bool before = e.s < part_of_few.from;
       rejecting.happens(e, before ? e.rejecting : 0);
       line.events[kept] = e;
@@ -212,7 +212,7 @@ Tally tally_of(const Lines& lines, std::size_t i) {
     }
     line.events.resize(kept);
     sort_events(line.events);
-    for (const Event& e : line.events) {
+    for (const SightEvent& e : line.events) {
       pass(e.s);
       rejecting.happens(e, e.rejecting);
     }
@@ -319,7 +319,7 @@ std::vector<std::vector<std::size_t>> disjoint_views(const std::vector<ComparedV
       Set accepting;
       accepting.set(i);
       sort_events(line.events);
-      for (const Event& e : line.events) {
+      for (const SightEvent& e : line.events) {
         if (e.rejecting > 0) seen[i].insert(accepting.to_string());
         accepting.set(e.view, e.rejecting < 0);
       }

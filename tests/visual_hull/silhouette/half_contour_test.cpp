@@ -31,10 +31,12 @@ cv::Mat covered_by_disc() {
   for (int y = 0; y < result.rows; ++y) {
     for (int x = 0; x < result.cols; ++x) {
       int count = 0;
-      for (int k = 0; k < kSteps * kSteps; ++k) {
-        const double u = x - 0.5 + (k % kSteps + 0.5) / kSteps - kDiscX;
-        const double v = y - 0.5 + (k / kSteps + 0.5) / kSteps - kDiscY;
-        count += std::hypot(u, v) < kDiscRadius ? 1 : 0;
+      for (int i = 0; i < kSteps; ++i) {
+        for (int j = 0; j < kSteps; ++j) {
+          const double u = x - 0.5 + (i + 0.5) / kSteps - kDiscX;
+          const double v = y - 0.5 + (j + 0.5) / kSteps - kDiscY;
+          count += std::hypot(u, v) < kDiscRadius ? 1 : 0;
+        }
       }
       result.at<std::uint8_t>(y, x) = cv::saturate_cast<std::uint8_t>(255.0 * count / (kSteps * kSteps));
     }

@@ -307,15 +307,14 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         folder = arguments.keep or pathlib.Path(scratch)
         folder.mkdir(parents=True, exist_ok=True)
-        hulls, nef = arguments.bin / "visual_hull", arguments.bin / "nef"
+        hulls = arguments.bin / "visual_hull"
         run(hulls, "board", "-o", folder / "board.svg")
         take_photographs(folder, sheet_of((folder / "board.svg").read_text()), arguments.views)
         run(hulls, "calibrate", folder / "photographs", "--lens", folder / "lens", "-o", folder / "scene.json")
         method = "--mask", "threshold:red-blue"
         run(hulls, "masks", folder / "photographs", *method, "-o", folder / "masks")
-        found = run(hulls, folder / "scene.json", *method, "--min-area", "400", "--repair-masks", "--soft", "--simplify", ".2", "--largest", "--texture", "-o",
-                    folder / "duck.glb")
-        run(nef, "picture", folder / "duck.glb", "-o", folder / "hull.png", "--from", "1,-1.3,.6")
+        found = run(hulls, folder / "scene.json", *method, "--min-area", "400", "--repair-masks", "--simplify", "1", "--largest",
+                    "--texture", "-o", folder / "duck.glb", "--picture", folder / "hull.png")
         write_perfect_scene(folder, arguments.views)
         perfect = run(hulls, folder / "perfect.json", "--soft", "--largest", "-o", folder / "perfect.nef")
         volume, of_perfect = (float(re.search(r"volume (\S+)", text)[1]) for text in (found, perfect))

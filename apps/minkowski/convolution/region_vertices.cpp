@@ -22,7 +22,6 @@
 #include "apps/minkowski/convolution/known_places.h"
 #include "apps/minkowski/convolution/marks/boundary_marker.h"
 #include "apps/minkowski/minkowski.h"
-#include "nef/base/fast_path.h"
 #include "nef/base/threads/parallel.h"
 
 namespace nef::minkowski {
@@ -353,7 +352,7 @@ bool VertexFinder::is_only_point(std::uint32_t point, const FacetSegment& s, con
 // pairs of them, and only the first of these has to look for it. kNone if that is not sure. Not where marks are mixed:
 // there a side may count that is in the plane of one of the facets.
 std::uint32_t VertexFinder::only_point_of(const FacetSegment& s, const SegmentCut& cut) const {
-  if (!kFastPaths || facets_.marks == BoundaryMarks::kMixed) return kNone;
+  if (facets_.marks == BoundaryMarks::kMixed) return kNone;
   for (const std::uint32_t point : places_.near(s.box_of({std::max(cut.at.low, 0.0), std::min(cut.at.high, 1.0)}))) {
     if (is_only_point(point, s, cut)) return point;
   }
@@ -366,7 +365,7 @@ void VertexFinder::add_points_of(const FacetSegment& s, const SegmentCut& cut) {
     near_.push_back(point);
     return;
   }
-  if (!kFastPaths || facets_.marks == BoundaryMarks::kMixed || !cut.is_end[0] || !cut.is_end[1]) {
+  if (facets_.marks == BoundaryMarks::kMixed || !cut.is_end[0] || !cut.is_end[1]) {
     look_for_points_of(s, cut, 0);
     return;
   }

@@ -130,6 +130,7 @@ struct PathProof {
   /// The hull of three or four positions (a triangle, a tetrahedron) at a range of orientations. None of these poses is
   /// free: the positions are beyond one side of the claim's box, or a piece of the robot overlaps an obstacle's.
   struct BlockedSimplex {
+    /// Two pieces that overlap, by their numbers.
     struct Hit {
       std::uint32_t robot = 0;
       std::uint32_t obstacle = 0;

@@ -305,6 +305,10 @@ Polyhedron read_polyhedron(const std::string& path, const MeshOptions& options, 
 
 bool is_set_extension(std::string_view extension) { return find_set_format(extension) != nullptr; }
 
+bool is_file_extension(std::string_view extension) {
+  return is_set_extension(extension) || find_mesh_format(extension) != nullptr;
+}
+
 std::vector<std::string> file_extensions() {
   std::vector<std::string> all;
   for (const SetFormat& format : kSetFormats) all.emplace_back(format.extension);

@@ -26,6 +26,8 @@ Polyhedron read_polyhedron(const std::string& path, const MeshOptions& options =
 
 /// All extensions that are read and written: nef and nef3, which store sets as they are, and those of meshes.
 std::vector<std::string> file_extensions();
+/// True for one of these.
+bool is_file_extension(std::string_view extension);
 /// True for nef and nef3.
 bool is_set_extension(std::string_view extension);
 

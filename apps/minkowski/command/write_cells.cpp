@@ -79,12 +79,11 @@ std::string cell_path(const std::string& directory, std::size_t cell, const std:
 std::string stale_cell(const std::string& directory, std::size_t cells, const std::string& format) {
   std::set<std::string> written;
   for (std::size_t i = 0; i < cells; ++i) written.insert(cell_path(directory, i, format));
-  const std::vector<std::string> extensions = file_extensions();
   std::string first;
   for (const auto& entry : std::filesystem::directory_iterator(directory)) {
     const std::string name = entry.path().filename().string();
-    const bool is_format = std::find(extensions.begin(), extensions.end(), lower_extension(name)) != extensions.end();
-    if (name.rfind("cell_", 0) != 0 || !is_format || written.count(entry.path().string()) > 0) continue;
+    if (name.rfind("cell_", 0) != 0 || !is_file_extension(lower_extension(name))) continue;
+    if (written.count(entry.path().string()) > 0) continue;
     if (first.empty() || name < first) first = name;
   }
   return first;

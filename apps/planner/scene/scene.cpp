@@ -5,7 +5,6 @@
 // key.
 #include "apps/planner/scene/scene.h"
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
 
@@ -125,8 +124,7 @@ Scene read_scene(const std::string& path, const MeshOptions& meshes) {
   const std::string extension = lower_extension(path);
   if (extension == "cfg") return read_cfg(path, meshes);
   const std::string text = read_file(path);
-  const std::vector<std::string> sets = file_extensions();
-  if (std::find(sets.begin(), sets.end(), extension) != sets.end()) {
+  if (is_file_extension(extension)) {
     throw InputError(path + ": a set, not a scene; a scene is a .json file that names a robot and obstacles");
   }
   return parse_scene(text, std::filesystem::path(path).parent_path().string(), path, meshes);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/visual_hull/formats/read_scene.h"
 
-#include <algorithm>
-
 #include "apps/visual_hull/formats/colmap.h"
 #include "apps/visual_hull/formats/matlab.h"
 #include "apps/visual_hull/formats/opencv_storage.h"
@@ -53,8 +51,7 @@ Scene read_scene(const fs::path& file, const ReadOptions& options) {
     return read_colmap(file.parent_path());
   }
   const std::string text = nef::read_file(file.string());
-  const std::vector<std::string> sets = nef::file_extensions();
-  if (std::find(sets.begin(), sets.end(), nef::lower_extension(file.string())) != sets.end()) {
+  if (nef::is_file_extension(nef::lower_extension(file.string()))) {
     throw nef::InputError(
         file.string() + ": a set, not a scene with cameras and silhouettes; render_silhouettes makes one from a mesh");
   }

@@ -4,7 +4,6 @@
 //
 // Each command reads its sets, calls one function of nef/parts or nef/distance, which says how it works, and prints
 // what that found; split chooses parts by their volumes before it writes them.
-#include <algorithm>
 #include <filesystem>
 
 #include "apps/nef/command/commands.h"
@@ -34,9 +33,9 @@ void write_section(Session& session, const Section& section, const Rational3& no
   } else if (extension == "dxf") {
     write_file(session.output, section_dxf(section, normal));
   } else {
-    std::vector<std::string> known = file_extensions();
-    const bool is_known = std::find(known.begin(), known.end(), extension) != known.end();
-    if (session.format.empty() && !extension.empty() && !is_known && !names_tile_folder(session.output)) {
+    if (session.format.empty() && !extension.empty() && !is_file_extension(extension) &&
+        !names_tile_folder(session.output)) {
+      std::vector<std::string> known = file_extensions();
       known.insert(known.begin(), {"svg", "dxf"});
       throw InputError(session.output + ": unknown extension; use " + word_list(known, "or"));
     }
@@ -80,9 +79,7 @@ std::string left_out_text(std::size_t left_out, std::size_t all) {
 
 // Whether the output names a file of a format that is written, and no folder.
 bool names_file(const std::string& path) {
-  const std::vector<std::string> known = file_extensions();
-  return std::find(known.begin(), known.end(), lower_extension(path)) != known.end() &&
-         !std::filesystem::is_directory(path);
+  return is_file_extension(lower_extension(path)) && !std::filesystem::is_directory(path);
 }
 
 void store_as_one(Session& session, const std::vector<Polyhedron>& parts, double seconds) {

@@ -163,7 +163,7 @@ class TurningProof:
 
     def text(self) -> Optional[str]:
         """The same as the text of a .proof file (`planner --proof`), which `python/proofs/check.py` checks; None where start
-        and goal are separated by no distance, or only by surfaces."""
+        and goal are separated by no distance, or only by surfaces, or where it takes more than 100,000 parts."""
         return self._proof.text()
 
 

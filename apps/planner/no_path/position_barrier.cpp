@@ -40,7 +40,7 @@ void PositionBarrier::add_samples() {
       }
     }
     for (const std::array<double, 3>& point : points) {
-      const bool is_special = orientations_.dimension() > 1 && std::fabs(point[0]) != 0.5;
+      const bool is_special = std::fabs(point[0]) != 0.5;
       samples_.push_back({pairs_.turned({chart, point, point}), is_special ? 0.01 : 1});
     }
   }

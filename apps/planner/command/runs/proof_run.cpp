@@ -62,8 +62,8 @@ void write_turning_proof(const Arguments& a, const Scene& scene, const TurningAn
       write_file(a.proof, proof_text(*proof));
     } else {
       std::cerr << "planner: " << a.proof
-                << " was not written: no distance, or only surfaces, separate start and goal; "
-                << "the report (-o FILE.json) has a proof by cells of angles\n";
+                << " was not written: no distance, or only surfaces, separate start and goal, or a barrier takes more "
+                << "than 100,000 parts; the report (-o FILE.json) has a proof by cells of angles\n";
     }
     return;
   }

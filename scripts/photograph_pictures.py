@@ -207,17 +207,15 @@ def textured_points(glb):
     part = tree["meshes"][0]["primitives"][0]
     kind = {5123: numpy.uint16, 5125: numpy.uint32}[tree["accessors"][part["indices"]]["componentType"]]
     corners = accessor(part["indices"], kind, 1).reshape(-1, 3)
-    position = accessor(part["attributes"]["POSITION"], numpy.float32, 3)[corners].mean(1)
+    places = accessor(part["attributes"]["POSITION"], numpy.float32, 3)[corners].astype(float)
     at = accessor(part["attributes"]["TEXCOORD_0"], numpy.float32, 2)[corners].mean(1)
     image = tree["bufferViews"][tree["images"][0]["bufferView"]]
     file = glb.with_suffix(".texture.png")
     file.write_bytes(body[image.get("byteOffset", 0):][:image["byteLength"]])
     pixels = read_png(file)
     row, column = ((at[:, k] * pixels.shape[1 - k]).astype(int) for k in (1, 0))
-    area = numpy.linalg.norm(numpy.cross(*(accessor(part["attributes"]["POSITION"], numpy.float32, 3)[corners[:, k]] -
-                                           accessor(part["attributes"]["POSITION"], numpy.float32, 3)[corners[:, 0]]
-                                           for k in (1, 2))), axis=-1)
-    return position, pixels[row, column].astype(float), area
+    area = numpy.linalg.norm(numpy.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0]), axis=-1)
+    return places.mean(1), pixels[row, column].astype(float), area
 
 
 def error_of_texture(glb, count):
@@ -225,7 +223,6 @@ def error_of_texture(glb, count):
     their mean, weighted by how squarely they look at the point, and the nearest of them; and the share of the hull's area
     that some camera sees and the duck has there. The lamp stands still, so each camera sees another shade."""
     position, colour, area = textured_points(glb)
-    position = position.astype(float)
     total, weight = numpy.zeros(position.shape), numpy.zeros(len(position))
     nearest = numpy.full(len(position), numpy.inf)
     for rotation, eye in cameras(count):

@@ -365,7 +365,7 @@ class CalibratedView(NamedTuple):
     """The result for one photograph."""
 
     photograph: str
-    #: corners of the board that were found; those that disagree with all others are not counted
+    #: corners of the board that were found, without those that the camera does not follow, if it has one
     corners: int
     #: pixels between corners as seen and as the camera sees them (root mean square); None if it was refused
     error: Optional[float]

@@ -267,6 +267,31 @@ def test_visual_hull(needs):
         visual_hull.compute([mask, 0 * mask, mask], cameras, box=((-2, -2, -2), (2, 2, 2)))
 
 
+def test_soft_masks(needs, tmp_path):
+    visual_hull = needs("visual_hull")
+    # As above, but the silhouettes are discs of radius 20.3 about the middle, by 8 x 8 points a pixel.
+    place = (numpy.arange(64 * 8) + 0.5) / 8 - 0.5 - 31.5
+    inside = place[:, None] ** 2 + place[None, :] ** 2 < 20.3 ** 2
+    covered = inside.reshape(64, 8, 64, 8).mean((1, 3))
+    opacity = (255 * covered).round().astype(numpy.uint8)
+    matrix = numpy.array([[20000, 0, 31.5], [0, 20000, 31.5], [0, 0, 1]])
+    cameras = [matrix @ numpy.column_stack([numpy.eye(3)[order], [0, 0, 1000]]) for order in ([1, 2, 0], [2, 0, 1], [0, 1, 2])]
+    # Three cylinders of one radius meet in a solid of (16 - 8 sqrt(2)) r^3.
+    truth = (16 - 8 * 2 ** .5) * (20.3 / 20) ** 3
+
+    def error(masks, **options):
+        hull = visual_hull.compute(masks, cameras, box=((-2, -2, -2), (2, 2, 2)), **options)
+        return abs(float(hull.solid.volume()) / truth - 1)
+    assert error([opacity] * 3, soft=True) < 0.005 < error([opacity >= 128] * 3)
+    with pytest.raises(nef.InputError, match="numbers from 0 to 255"):
+        visual_hull.compute([opacity >= 128] * 3, cameras, soft=True)
+    file = tmp_path / "disc.png"
+    visual_hull._visual_hull.write_mask((40 + 160 * covered).round().astype(numpy.uint8), str(file))
+    hard, soft = (visual_hull.masks([file], "threshold:gray", soft=how).masks[0] for how in (False, True))
+    assert hard.dtype == bool and ((soft >= 128) == (covered >= 0.5))[covered != 0.5].all()
+    assert 0 < ((soft > 0) & (soft < 255)).sum() < 500
+
+
 def test_texture_of_photographs(needs, tmp_path):
     visual_hull = needs("visual_hull")
     masks, cameras = turntable_of_balls(6, shape=(100, 120), focal=150)

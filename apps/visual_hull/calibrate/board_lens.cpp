@@ -185,7 +185,6 @@ SeenBoard trusted_corners(const SeenBoard& view, const BoardCamera& camera, RawP
     const auto worst = std::max_element(off.begin(), off.end()) - off.begin();
     if (off[static_cast<std::size_t>(worst)] <= std::max(kLeastFarOff, kFarOff * median_of(off))) break;
     if (kept.points.size() <= fewest) return view;
-    kept.numbers.erase(kept.numbers.begin() + worst);
     kept.corners.erase(kept.corners.begin() + worst);
     kept.points.erase(kept.points.begin() + worst);
     camera.fit(kept, fitted);

@@ -26,10 +26,11 @@ SeenBoard find_board(const cv::Mat& picture, const Board& board) {
   SeenBoard seen;
   if (ids.size() < 2) return seen;
   std::vector<cv::Point2f> points;
-  cv::aruco::interpolateCornersCharuco(markers, ids, gray, definition, points, seen.numbers);
+  std::vector<int> numbers;
+  cv::aruco::interpolateCornersCharuco(markers, ids, gray, definition, points, numbers);
   const std::vector<Eigen::Vector3d> corners = board_corners(board);
   for (std::size_t k = 0; k < points.size(); ++k) {
-    const Eigen::Vector3d& corner = corners[static_cast<std::size_t>(seen.numbers[k])];
+    const Eigen::Vector3d& corner = corners[static_cast<std::size_t>(numbers[k])];
     seen.corners.emplace_back(corner.x(), corner.y(), corner.z());
     // Whole numbers are centres of pixels in both.
     seen.points.emplace_back((points[k].x + 0.5) / scale - 0.5, (points[k].y + 0.5) / scale - 0.5);

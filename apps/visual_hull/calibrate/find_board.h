@@ -10,10 +10,9 @@
 
 namespace nef::visual_hull {
 
-/// Corners of a board that a photograph shows: their numbers, where they lie on the board (as board_corners has them)
-/// and where they are seen, in pixels whose centres are whole numbers.
+/// Corners of a board that a photograph shows: where they lie on the board (as board_corners has them) and where they
+/// are seen, in pixels whose centres are whole numbers.
 struct SeenBoard {
-  std::vector<int> numbers;
   std::vector<cv::Point3d> corners;
   std::vector<cv::Point2d> points;
 };

@@ -42,16 +42,14 @@ cv::Mat soft_outline(const cv::Mat& measure, const cv::Mat& mask) {
   cv::dilate(mask, outer, disc);
   const NearMean object(values, inner);
   const NearMean background(values, outer == 0);
-  const cv::Mat above = values - (object.mean + background.mean) * 0.5;
+  cv::Mat above = values - (object.mean + background.mean) * 0.5;  // what is midway
   const cv::Mat decided = object.known & background.known & (object.mean > background.mean) & outer & (inner == 0);
   cv::Mat shifted = mask.clone();
   cv::Mat(above > 0).copyTo(shifted, decided);
   shifted = object_above(shifted, 127);
-  cv::Mat level;  // what is not decided is 0 or 255, which opacity_of leaves alone
-  above.copyTo(level);
-  level.setTo(255, (decided == 0) & shifted);
-  level.setTo(-255, (decided == 0) & (shifted == 0));
-  return opacity_of(level, 0, 255, shifted);
+  above.setTo(255, (decided == 0) & shifted);  // what is not decided is 255 or 0
+  above.setTo(-255, (decided == 0) & (shifted == 0));
+  return opacity_of(above, 0, 255, shifted);
 }
 
 }  // namespace nef::visual_hull

@@ -15,7 +15,6 @@ SeenBoard seen_by(const testing::BoardCamera& camera, cv::RNG& random) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Eigen::Vector3d p = camera.pose.rotation * corners[i] + camera.pose.translation;
     const Lens& lens = camera.lens;
-    seen.numbers.push_back(static_cast<int>(i));
     seen.corners.emplace_back(corners[i].x(), corners[i].y(), corners[i].z());
     seen.points.emplace_back(lens.fx * p.x() / p.z() + lens.cx + random.gaussian(0.05),
                              lens.fy * p.y() / p.z() + lens.cy + random.gaussian(0.05));

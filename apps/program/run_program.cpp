@@ -21,7 +21,7 @@
 #include "apps/program/numbers.h"
 #include "apps/program/stack.h"
 #include "nef/base/error.h"
-#include "nef/base/word_list.h"
+#include "nef/base/text/word_list.h"
 #include "nef/number/memory.h"
 
 namespace nef {

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "apps/program/common_options.h"
-#include "apps/program/notes.h"
-#include "apps/program/progress_bar.h"
-#include "apps/program/run_report.h"
+#include "apps/program/reports/notes.h"
+#include "apps/program/reports/progress_bar.h"
+#include "apps/program/reports/run_report.h"
 #include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 #include "nef/io/mesh/mesh_writer.h"

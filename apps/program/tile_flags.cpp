@@ -11,7 +11,7 @@
 
 #include "nef/base/counted.h"
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/io/mesh/mesh_formats.h"
 #include "nef/io/mesh/mesh_reader.h"

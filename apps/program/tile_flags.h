@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-#include "apps/program/report.h"
+#include "apps/program/reports/report.h"
 #include "apps/program/session.h"
 #include "nef/tiles/step_sequence.h"
 

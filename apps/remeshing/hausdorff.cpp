@@ -20,7 +20,7 @@
 
 #include "nef/base/error.h"
 #include "nef/export/nearest_float.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 
 namespace nef {
 namespace {

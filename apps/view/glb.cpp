@@ -11,7 +11,7 @@
 #include "apps/view/scene/palette.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/mesh/face_groups.h"
-#include "nef/io/mesh/glb_document.h"
+#include "nef/io/mesh/formats/glb_document.h"
 
 namespace nef::view {
 namespace {

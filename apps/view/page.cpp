@@ -4,7 +4,7 @@
 #include "apps/view/page/byte_text.h"
 #include "apps/view/page/viewer_bundle.h"
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 #include "nef/io/file_bytes.h"
 
 namespace nef::view {

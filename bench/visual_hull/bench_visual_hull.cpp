@@ -9,7 +9,7 @@
 #include <cmath>
 #include <iostream>
 
-#include "apps/program/report.h"
+#include "apps/program/reports/report.h"
 #include "apps/visual_hull/command/report.h"
 #include "apps/visual_hull/cones/intersection.h"
 #include "apps/visual_hull/viewing_edges/direct_hull.h"

@@ -9,7 +9,7 @@
 #include <iostream>
 #include <opencv2/core.hpp>
 
-#include "apps/program/report.h"
+#include "apps/program/reports/report.h"
 #include "apps/visual_hull/command/report.h"
 #include "apps/visual_hull/stream.h"
 #include "bench/visual_hull/voxel_peer.h"

@@ -11,9 +11,9 @@
 #include "nef/base/error.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/boolean/facet_locator.h"
+#include "nef/boolean/result/wide_fans.h"
 #include "nef/boolean/triangle_filter.h"
-#include "nef/boolean/wide_fans.h"
-#include "nef/geometry/occupancy_grid.h"
+#include "nef/geometry/search/occupancy_grid.h"
 
 namespace nef {
 namespace {

@@ -12,7 +12,7 @@
 #include "nef/complex/complex.h"
 #include "nef/complex/facet_plane.h"
 #include "nef/complex/item_ref.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 
 namespace nef {
 

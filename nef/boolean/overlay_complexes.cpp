@@ -11,7 +11,7 @@
 #include "nef/base/fast_path.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/boolean/pyramid_overlay.h"
-#include "nef/boolean/result_assembly.h"
+#include "nef/boolean/result/result_assembly.h"
 #include "nef/complex/local_pyramid.h"
 
 namespace nef {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "nef/base/monitor.h"
-#include "nef/boolean/untouched.h"
+#include "nef/boolean/result/untouched.h"
 #include "nef/sphere_map/label_function.h"
 
 namespace nef {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "nef/forward.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 
 namespace nef {
 

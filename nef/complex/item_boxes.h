@@ -2,7 +2,7 @@
 #pragma once
 
 #include "nef/complex/complex.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 
 namespace nef {
 

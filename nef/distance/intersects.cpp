@@ -28,7 +28,7 @@
 #include "nef/complex/local_pyramid.h"
 #include "nef/distance/crossing_filter.h"
 #include "nef/distance/nearest_features.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/geometry/vectors.h"
 #include "nef/location/facet_search.h"
 #include "nef/polyhedron.h"

@@ -17,7 +17,7 @@
 
 #include "nef/base/error.h"
 #include "nef/complex/item_boxes.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/geometry/vectors.h"
 #include "nef/location/facet_search.h"
 

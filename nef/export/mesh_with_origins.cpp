@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 
 namespace nef {
 

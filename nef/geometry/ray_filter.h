@@ -3,8 +3,8 @@
 // Which boxes a ray may meet, in double precision.
 #pragma once
 
-#include "nef/geometry/box_tree.h"
 #include "nef/geometry/predicates.h"
+#include "nef/geometry/search/box_tree.h"
 
 namespace nef {
 

@@ -9,7 +9,7 @@
 #include <numeric>
 
 #include "nef/base/error.h"
-#include "nef/geometry/spatial_order.h"
+#include "nef/geometry/search/spatial_order.h"
 #include "nef/mesh/mesh_check.h"
 #include "nef/number/int128.h"
 

@@ -13,7 +13,7 @@
 
 #include "nef/base/counted.h"
 #include "nef/base/freed_memory.h"
-#include "nef/base/word_list.h"
+#include "nef/base/text/word_list.h"
 #include "nef/export/to_mesh.h"
 #include "nef/geometry/vectors.h"
 #include "nef/io/cgal/cgal_nef3.h"

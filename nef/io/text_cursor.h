@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 #include "nef/io/file_bytes.h"
 #include "nef/number/number.h"
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 #include "nef/io/file_bytes.h"
 
 namespace nef {

@@ -14,7 +14,7 @@
 #include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
 #include "nef/complex/item_ref.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/location/compare.h"
 
 namespace nef {

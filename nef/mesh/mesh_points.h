@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "nef/base/monitor.h"
-#include "nef/geometry/box_tree.h"
 #include "nef/geometry/point_table.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/number/approximation.h"
 #include "nef/number/int128.h"
 #include "nef/number/number.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 #include "nef/number/nearest_quotient.h"
 
 namespace nef {

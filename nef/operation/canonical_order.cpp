@@ -15,7 +15,7 @@
 #include "nef/base/error.h"
 #include "nef/base/fast_path.h"
 #include "nef/base/threads/parallel.h"
-#include "nef/geometry/spatial_order.h"
+#include "nef/geometry/search/spatial_order.h"
 #include "nef/location/compare.h"
 #include "nef/operation/canonical_map.h"
 #include "nef/operation/canonical_ring.h"

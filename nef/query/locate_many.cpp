@@ -18,7 +18,7 @@
 #include "nef/base/threads/parallel.h"
 #include "nef/complex/item_boxes.h"
 #include "nef/complex/predicates_of_sets.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/location/facet_search.h"
 #include "nef/polyhedron.h"
 

@@ -14,8 +14,8 @@
 #include <cmath>
 
 #include "nef/base/error.h"
-#include "nef/geometry/box_tree.h"
 #include "nef/geometry/direction_error.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
 namespace nef {

@@ -15,7 +15,7 @@
 #include "nef/base/defect.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/base/union_find.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/location/query_structure.h"
 #include "nef/sphere_map/sphere_geometry.h"
 

@@ -4,7 +4,7 @@
 // edges, lie in one plane, are oriented and nested as outer cycles and holes must be.
 #include <vector>
 
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/mesh/polygon/triangulate.h"
 #include "nef/validation/concrete_points.h"
 #include "nef/validation/validate.h"

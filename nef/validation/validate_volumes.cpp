@@ -8,9 +8,9 @@
 
 #include "nef/base/union_find.h"
 #include "nef/complex/shell_sfaces.h"
-#include "nef/geometry/box_tree.h"
 #include "nef/geometry/integer_vector.h"
 #include "nef/geometry/ray_filter.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/mesh/polygon/triangulate.h"
 #include "nef/sphere_map/sphere_geometry.h"
 #include "nef/validation/concrete_points.h"

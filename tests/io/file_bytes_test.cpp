@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 #include "nef/construct/construct.h"
 #include "nef/io/content_hash.h"
 #include "nef/io/mesh/mesh_reader.h"

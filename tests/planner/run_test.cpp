@@ -5,7 +5,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "apps/program/exact_json.h"
+#include "apps/program/reports/exact_json.h"
 #include "nef/construct/construct.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/polyhedron.h"

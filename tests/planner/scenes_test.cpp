@@ -14,7 +14,7 @@
 #include "apps/planner/ompl/tight_planner.h"
 #include "apps/planner/path/question.h"
 #include "apps/planner/turning/turning_search.h"
-#include "apps/program/exact_json.h"
+#include "apps/program/reports/exact_json.h"
 #include "nef/base/error.h"
 #include "tests/planner/command_helpers.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "apps/minkowski/convex/convex_cell.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef::minkowski {

@@ -8,7 +8,7 @@
 
 #include "apps/program/common_options.h"
 #include "nef/base/error.h"
-#include "nef/base/word_list.h"
+#include "nef/base/text/word_list.h"
 #include "nef/io/polyhedron_file.h"
 
 namespace nef::minkowski {

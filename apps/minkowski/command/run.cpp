@@ -16,7 +16,7 @@
 #include "apps/minkowski/command/write_cells.h"
 #include "apps/minkowski/morphology.h"
 #include "apps/program/numbers.h"
-#include "apps/program/report.h"
+#include "apps/program/reports/report.h"
 #include "apps/program/run_program.h"
 #include "apps/program/set_info.h"
 #include "apps/program/version.h"

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef::minkowski {

@@ -12,7 +12,7 @@
 #include "apps/minkowski/convolution/arrangement/surviving_intervals.h"
 #include "apps/minkowski/convolution/marks/interlock.h"
 #include "apps/minkowski/convolution/marks/sum_membership.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/number/approximation.h"
 
 namespace nef::minkowski {

@@ -10,7 +10,7 @@
 
 #include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 
 namespace nef::minkowski {
 

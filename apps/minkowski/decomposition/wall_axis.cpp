@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "apps/minkowski/decomposition/reflex.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/sphere_map/sphere_geometry.h"
 
 namespace nef::minkowski {

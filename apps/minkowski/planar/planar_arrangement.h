@@ -10,7 +10,7 @@
 
 #include "apps/minkowski/planar/planar_polygon.h"
 #include "nef/base/monitor.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/mesh/mesh_points.h"
 
 namespace nef::minkowski {

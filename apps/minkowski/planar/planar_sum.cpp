@@ -14,7 +14,7 @@
 #include "apps/minkowski/planar/covered_cells.h"
 #include "apps/minkowski/planar/planar_arrangement.h"
 #include "apps/minkowski/planar/planar_convolution.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/geometry/vectors.h"
 #include "nef/mesh/edge_order.h"
 

@@ -11,7 +11,7 @@
 
 #include "apps/minkowski/cells/rounded_cells.h"
 #include "apps/minkowski/union/coplanar.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 
 namespace nef::minkowski {
 

@@ -13,7 +13,7 @@
 #include "apps/minkowski/cells/exact_cells.h"
 #include "apps/minkowski/cells/meeting_points.h"
 #include "nef/base/monitor.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/sphere_map/overlay.h"
 #include "nef/synthesis/complex_builder.h"
 

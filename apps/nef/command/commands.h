@@ -12,7 +12,7 @@
 
 #include "apps/nef/command/run_command.h"
 #include "apps/program/expression/expression.h"
-#include "apps/program/report.h"
+#include "apps/program/reports/report.h"
 #include "apps/program/session.h"
 
 namespace nef {

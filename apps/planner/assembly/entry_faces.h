@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/mesh/mesh.h"
 #include "nef/number/approximation.h"
 #include "nef/number/number.h"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "apps/planner/command/arguments.h"
-#include "apps/program/run_report.h"
+#include "apps/program/reports/run_report.h"
 #include "apps/view/layer.h"
 
 namespace nef::planner {

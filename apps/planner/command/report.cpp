@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "apps/planner/clearance/timing.h"
-#include "apps/program/exact_json.h"
+#include "apps/program/reports/exact_json.h"
 #include "nef/base/error.h"
 #include "nef/io/number_text.h"
 #include "nef/number/brief_text.h"

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "apps/planner/path/answer.h"
-#include "apps/program/run_report.h"
+#include "apps/program/reports/run_report.h"
 
 namespace nef::planner {
 

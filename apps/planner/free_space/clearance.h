@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "apps/planner/free_space/free_space.h"
-#include "apps/planner/free_space/vectors.h"
-#include "nef/geometry/box_tree.h"
+#include "apps/planner/intersection/vectors.h"
+#include "nef/geometry/search/box_tree.h"
 
 namespace nef::planner {
 

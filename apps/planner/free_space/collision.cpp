@@ -4,7 +4,7 @@
 #include "apps/minkowski/minkowski.h"
 #include "apps/planner/free_space/free_space.h"
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 #include "nef/number/brief_text.h"
 #include "nef/query/location_name.h"
 

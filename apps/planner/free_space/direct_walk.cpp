@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "apps/planner/free_space/facet_meeting.h"
+#include "apps/planner/intersection/facet_meeting.h"
 
 namespace nef::planner {
 namespace {

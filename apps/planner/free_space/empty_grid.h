@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "apps/planner/free_space/vectors.h"
+#include "apps/planner/intersection/vectors.h"
 #include "nef/base/monitor.h"
 #include "nef/complex/complex.h"
 

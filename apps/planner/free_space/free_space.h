@@ -14,7 +14,7 @@
 
 #include "apps/planner/free_space/empty_grid.h"
 #include "apps/planner/free_space/incidences.h"
-#include "apps/planner/free_space/item_tree.h"
+#include "apps/planner/intersection/item_tree.h"
 #include "apps/planner/partition/cells.h"
 #include "apps/planner/partition/roadmap.h"
 #include "apps/planner/partition/space_tree.h"

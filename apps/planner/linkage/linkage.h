@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/planner/free_space/vectors.h"
+#include "apps/planner/intersection/vectors.h"
 #include "apps/planner/rigid/rigid_body.h"
 
 namespace nef::planner {

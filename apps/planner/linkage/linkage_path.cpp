@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/program/exact_json.h"
-#include "apps/program/json_reader.h"
 #include "apps/program/numbers.h"
+#include "apps/program/reports/exact_json.h"
+#include "apps/program/reports/json_reader.h"
 #include "nef/base/counted.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"

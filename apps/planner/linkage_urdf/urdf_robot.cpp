@@ -19,9 +19,9 @@
 
 #include "apps/planner/rigid/rigid_motion.h"
 #include "apps/planner/scene/shapes.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 #include "nef/io/file_bytes.h"
-#include "nef/io/mesh/xml_events.h"
+#include "nef/io/mesh/formats/xml_events.h"
 #endif
 
 namespace nef::planner {

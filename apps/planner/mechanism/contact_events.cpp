@@ -18,7 +18,7 @@
 #include <span>
 
 #include "apps/planner/mechanism/contact_products.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef::planner {

@@ -6,7 +6,7 @@
 // rounded to doubles, and `reach` is at least the sum of |x|_1 of both pieces' vertices and of the position.
 #pragma once
 
-#include "apps/planner/free_space/vectors.h"
+#include "apps/planner/intersection/vectors.h"
 #include "apps/planner/rigid/motion_cell.h"
 
 namespace nef::planner {

@@ -4,8 +4,8 @@
 
 #include "apps/planner/mechanism/joint.h"
 #include "apps/planner/scene/shapes.h"
-#include "apps/program/exact_json.h"
-#include "apps/program/json_reader.h"
+#include "apps/program/reports/exact_json.h"
+#include "apps/program/reports/json_reader.h"
 #include "nef/io/file_bytes.h"
 
 namespace nef::planner {

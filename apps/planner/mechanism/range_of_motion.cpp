@@ -11,7 +11,7 @@
 #include <optional>
 #include <utility>
 
-#include "apps/planner/free_space/hulls_apart.h"
+#include "apps/planner/intersection/hulls_apart.h"
 #include "apps/planner/mechanism/contact_events.h"
 #include "apps/planner/rigid/close_pieces.h"
 #include "apps/planner/rigid/motion_checker.h"

@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "apps/planner/free_space/vectors.h"
+#include "apps/planner/intersection/vectors.h"
 #include "apps/planner/no_path/blocking_pairs.h"
 #include "apps/planner/proofs/path_proof.h"
 

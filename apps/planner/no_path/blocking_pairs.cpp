@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/planner/free_space/hulls_apart.h"
+#include "apps/planner/intersection/hulls_apart.h"
 #include "nef/construct/convex_hull.h"
 #include "nef/geometry/vectors.h"
 

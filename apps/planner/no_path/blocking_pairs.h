@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "apps/planner/free_space/vectors.h"
+#include "apps/planner/intersection/vectors.h"
 #include "apps/planner/no_path/small_program.h"
 #include "apps/planner/orientation/orientation_cells.h"
 #include "apps/planner/proofs/path_proof.h"

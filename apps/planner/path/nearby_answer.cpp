@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "apps/minkowski/minkowski.h"
-#include "apps/planner/free_space/vectors.h"
+#include "apps/planner/intersection/vectors.h"
 #include "nef/base/error.h"
 #include "nef/base/monitor.h"
 #include "nef/base/timing/stopwatch.h"

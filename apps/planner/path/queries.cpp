@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/path/queries.h"
 
-#include "apps/program/exact_json.h"
 #include "apps/program/numbers.h"
+#include "apps/program/reports/exact_json.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 

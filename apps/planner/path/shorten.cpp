@@ -13,7 +13,7 @@
 #include <set>
 #include <utility>
 
-#include "apps/planner/free_space/vectors.h"
+#include "apps/planner/intersection/vectors.h"
 #include "nef/number/simplest_between.h"
 
 namespace nef::planner {

@@ -13,9 +13,9 @@
 #include <span>
 #include <utility>
 
-#include "apps/planner/free_space/vectors.h"
-#include "nef/geometry/box_tree.h"
+#include "apps/planner/intersection/vectors.h"
 #include "nef/geometry/monotone_chain.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef::planner {

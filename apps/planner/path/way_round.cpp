@@ -10,7 +10,7 @@
 #include <cmath>
 #include <optional>
 
-#include "apps/planner/free_space/vectors.h"
+#include "apps/planner/intersection/vectors.h"
 #include "apps/planner/path/shorten.h"
 #include "apps/planner/search/a_star.h"
 

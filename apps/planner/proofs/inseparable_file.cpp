@@ -6,7 +6,7 @@
 
 #include "apps/planner/proofs/inseparable_proof.h"
 #include "apps/planner/proofs/proof_reader.h"
-#include "apps/program/exact_json.h"
+#include "apps/program/reports/exact_json.h"
 
 namespace nef::planner {
 namespace {

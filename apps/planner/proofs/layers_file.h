@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/planner/proofs/path_proof.h"
-#include "apps/program/json_reader.h"
+#include "apps/program/reports/json_reader.h"
 
 namespace nef::planner {
 

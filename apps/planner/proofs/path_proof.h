@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/planner/free_space/common_point.h"
+#include "apps/planner/intersection/common_point.h"
 #include "apps/planner/rigid/certified_path.h"
 #include "apps/planner/rigid/rigid_motion.h"
 #include "apps/planner/scene/scene.h"

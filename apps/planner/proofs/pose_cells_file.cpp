@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "apps/planner/proofs/proof_reader.h"
-#include "apps/program/exact_json.h"
+#include "apps/program/reports/exact_json.h"
 
 namespace nef::planner {
 namespace {

@@ -11,7 +11,7 @@
 #include "apps/planner/proofs/layers_file.h"
 #include "apps/planner/proofs/pose_cells_file.h"
 #include "apps/planner/proofs/proof_reader.h"
-#include "apps/program/exact_json.h"
+#include "apps/program/reports/exact_json.h"
 
 namespace nef::planner {
 namespace {

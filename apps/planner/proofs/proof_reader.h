@@ -10,7 +10,7 @@
 #include <string>
 
 #include "apps/planner/proofs/path_proof.h"
-#include "apps/program/json_reader.h"
+#include "apps/program/reports/json_reader.h"
 
 namespace nef::planner {
 

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "apps/planner/free_space/vectors.h"
+#include "apps/planner/intersection/vectors.h"
 #include "apps/planner/rigid/rigid_motion.h"
 
 namespace nef::planner {

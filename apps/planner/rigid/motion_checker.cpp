@@ -12,8 +12,8 @@
 #include <cmath>
 #include <utility>
 
-#include "apps/planner/free_space/common_point.h"
-#include "apps/planner/free_space/hulls_apart.h"
+#include "apps/planner/intersection/common_point.h"
+#include "apps/planner/intersection/hulls_apart.h"
 #include "apps/planner/rigid/close_pieces.h"
 #include "apps/planner/rigid/motion_parts.h"
 #include "apps/planner/rigid/separation.h"

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "apps/planner/free_space/vectors.h"
+#include "apps/planner/intersection/vectors.h"
 
 namespace nef::planner {
 

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "apps/planner/free_space/vectors.h"
+#include "apps/planner/intersection/vectors.h"
 #include "apps/planner/rigid/oriented_box.h"
 #include "nef/base/monitor.h"
 #include "nef/forward.h"

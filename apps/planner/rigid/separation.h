@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "apps/planner/free_space/vectors.h"
+#include "apps/planner/intersection/vectors.h"
 #include "apps/planner/rigid/motion_cell.h"
 #include "apps/planner/rigid/rigid_body.h"
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "apps/planner/free_space/vectors.h"
+#include "apps/planner/intersection/vectors.h"
 #include "apps/planner/rigid/motion_checker.h"
 
 namespace nef::planner {

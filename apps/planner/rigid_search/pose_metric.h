@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "apps/planner/free_space/vectors.h"
+#include "apps/planner/intersection/vectors.h"
 #include "apps/planner/rigid/rigid_motion.h"
 #include "apps/planner/rigid_search/rotations.h"
 

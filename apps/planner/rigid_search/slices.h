@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "apps/planner/free_space/free_space.h"
-#include "apps/planner/free_space/vectors.h"
+#include "apps/planner/intersection/vectors.h"
 #include "apps/planner/rigid/rigid_motion.h"
 #include "apps/planner/scene/scene.h"
 #include "nef/base/monitor.h"

@@ -11,7 +11,7 @@
 #include "apps/planner/scene/scene.h"
 #include "apps/planner/scene/shapes.h"
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 #include "nef/io/file_bytes.h"
 
 namespace nef::planner {

@@ -15,7 +15,7 @@
 
 #include "nef/base/union_find.h"
 #include "nef/complex/rewrite_sphere_maps.h"
-#include "nef/import/fill.h"
+#include "nef/import/repair/fill.h"
 #include "nef/import/repair/repair_steps.h"
 #include "nef/mesh/mesh_piece.h"
 

@@ -9,8 +9,8 @@
 #include <filesystem>
 
 #include "apps/planner/scene/shapes.h"
-#include "apps/program/exact_json.h"
-#include "apps/program/json_reader.h"
+#include "apps/program/reports/exact_json.h"
+#include "apps/program/reports/json_reader.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"

@@ -3,7 +3,7 @@
 // A* over the portals of the zones.
 #include <algorithm>
 
-#include "apps/planner/free_space/vectors.h"
+#include "apps/planner/intersection/vectors.h"
 #include "apps/planner/search/a_star.h"
 #include "apps/planner/search/search.h"
 #include "nef/base/error.h"

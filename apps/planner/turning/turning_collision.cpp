@@ -9,7 +9,7 @@
 #include <algorithm>
 
 #include "apps/minkowski/minkowski.h"
-#include "apps/planner/free_space/hulls_apart.h"
+#include "apps/planner/intersection/hulls_apart.h"
 #include "apps/planner/rigid/separation.h"
 #include "apps/planner/turning/turning_robot.h"
 #include "nef/construct/construct.h"

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "apps/planner/free_space/hulls_apart.h"
+#include "apps/planner/intersection/hulls_apart.h"
 #include "apps/planner/turning/turn.h"
 #include "nef/base/monitor.h"
 #include "nef/mesh/mesh.h"

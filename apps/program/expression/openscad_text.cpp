@@ -8,7 +8,7 @@
 #include <cctype>
 
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 
 namespace nef {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "apps/visual_hull/calibrate/board_definition.h"
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 
 namespace nef::visual_hull {
 namespace {

@@ -13,7 +13,7 @@
 #include "apps/visual_hull/formats/turntable.h"
 #include "apps/visual_hull/scene/axes.h"
 #include "nef/base/error.h"
-#include "nef/base/word_list.h"
+#include "nef/base/text/word_list.h"
 #include "nef/io/polyhedron_file.h"
 
 namespace nef::visual_hull {

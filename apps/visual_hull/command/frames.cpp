@@ -19,7 +19,7 @@
 #include "apps/visual_hull/scene/understanding.h"
 #include "apps/visual_hull/stream.h"
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/geometry/vectors.h"

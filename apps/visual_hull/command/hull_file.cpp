@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "apps/visual_hull/color/vertex_colors.h"
-#include "apps/visual_hull/command/overlay.h"
+#include "apps/visual_hull/command/pictures/overlay.h"
 #include "apps/visual_hull/texture/hull_texture.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"

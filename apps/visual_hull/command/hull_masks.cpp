@@ -6,8 +6,8 @@
 #include <set>
 
 #include "apps/visual_hull/color/photo_view.h"
-#include "apps/visual_hull/command/overlay.h"
 #include "apps/visual_hull/command/photographs.h"
+#include "apps/visual_hull/command/pictures/overlay.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/number_text.h"

@@ -24,14 +24,14 @@
 #include "apps/visual_hull/command/hull_file.h"
 #include "apps/visual_hull/command/hull_masks.h"
 #include "apps/visual_hull/command/masks_run.h"
-#include "apps/visual_hull/command/overlay.h"
-#include "apps/visual_hull/command/pictures.h"
+#include "apps/visual_hull/command/pictures/overlay.h"
+#include "apps/visual_hull/command/pictures/pictures.h"
 #include "apps/visual_hull/command/report.h"
 #include "apps/visual_hull/formats/write_scene.h"
 #include "apps/visual_hull/points/point_cloud.h"
 #include "apps/visual_hull/scene/understanding.h"
 #include "nef/base/error.h"
-#include "nef/base/word_list.h"
+#include "nef/base/text/word_list.h"
 #include "nef/io/file_bytes.h"
 
 namespace nef::visual_hull {

@@ -18,7 +18,7 @@
 #include "apps/visual_hull/scene/pose.h"
 #include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 #include "nef/io/binary_cursor.h"
 
 namespace nef::visual_hull {

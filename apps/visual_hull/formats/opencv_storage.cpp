@@ -18,7 +18,7 @@
 #include "apps/visual_hull/scene/natural_order.h"
 #include "apps/visual_hull/scene/pose.h"
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 #include "nef/io/file_bytes.h"
 
 namespace nef::visual_hull {

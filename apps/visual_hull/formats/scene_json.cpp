@@ -6,11 +6,11 @@
 
 #include <set>
 
-#include "apps/program/exact_json.h"
+#include "apps/program/reports/exact_json.h"
 #include "apps/visual_hull/formats/transforms.h"
 #include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 #include "nef/io/file_bytes.h"
 
 namespace nef::visual_hull {

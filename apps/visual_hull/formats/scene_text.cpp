@@ -10,7 +10,7 @@
 
 #include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 
 namespace nef::visual_hull {
 namespace {

@@ -9,12 +9,12 @@
 
 #include <cmath>
 
-#include "apps/program/exact_json.h"
+#include "apps/program/reports/exact_json.h"
 #include "apps/visual_hull/scene/images.h"
 #include "apps/visual_hull/scene/pose.h"
 #include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 
 namespace nef::visual_hull {
 namespace {

@@ -3,7 +3,7 @@
 
 #include "apps/visual_hull/scene/scene_number.h"
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 #include "nef/geometry/vectors.h"
 #include "nef/io/text_cursor.h"
 

@@ -6,7 +6,7 @@
 
 #include "apps/program/numbers.h"
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 
 namespace nef::visual_hull {
 namespace {

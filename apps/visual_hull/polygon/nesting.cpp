@@ -9,7 +9,7 @@
 
 #include "apps/visual_hull/polygon/polygon.h"
 #include "nef/base/error.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/number/brief_text.h"
 
 namespace nef::visual_hull {

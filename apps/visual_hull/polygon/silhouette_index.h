@@ -5,7 +5,7 @@
 
 #include "apps/visual_hull/polygon/edge_grid.h"
 #include "apps/visual_hull/polygon/polygon.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 
 namespace nef::visual_hull {
 

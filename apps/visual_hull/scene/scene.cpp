@@ -4,8 +4,8 @@
 #include <algorithm>
 
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
-#include "nef/base/word_list.h"
+#include "nef/base/text/in_quotes.h"
+#include "nef/base/text/word_list.h"
 
 namespace nef::visual_hull {
 

@@ -12,7 +12,7 @@
 #include <cmath>
 
 #include "apps/visual_hull/scene/pose.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 
 namespace nef::visual_hull {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "nef/base/counted.h"
 #include "nef/base/error.h"
-#include "nef/geometry/box_tree.h"
 #include "nef/geometry/ids.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/import/repair/doubled_faces.h"
 #include "nef/mesh/edge_order.h"
 #include "nef/mesh/mesh_piece.h"

@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "nef/base/error.h"
-#include "nef/base/word_list.h"
+#include "nef/base/text/word_list.h"
 #include "nef/io/file_bytes.h"
-#include "nef/io/mesh/glb_mesh.h"
+#include "nef/io/mesh/formats/glb_mesh.h"
+#include "nef/io/mesh/formats/threemf_mesh.h"
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/mesh/mesh_writer.h"
-#include "nef/io/mesh/threemf_mesh.h"
 
 namespace nef {
 namespace {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 #include "nef/geometry/ids.h"
 #include "nef/mesh/mesh_piece.h"
 

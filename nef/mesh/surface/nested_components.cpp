@@ -12,7 +12,7 @@
 #include <span>
 
 #include "nef/base/union_find.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/mesh/edge_order.h"
 
 namespace nef {

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 
-#include "nef/geometry/direction_tree.h"
+#include "nef/geometry/search/direction_tree.h"
 #include "nef/mesh/surface/coplanar_groups.h"
 
 namespace nef {

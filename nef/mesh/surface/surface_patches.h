@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "nef/base/monitor.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/surface/vertex_stars.h"
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 
 namespace nef {
 namespace {

@@ -11,7 +11,7 @@
 #include "apps/planner/proofs/inseparable_proof.h"
 #include "binding/apps/planner.h"
 #include "binding/base/bindings.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 #include "nef/base/timing/time_limit.h"
 
 namespace nef::python {

@@ -24,7 +24,7 @@
 #include "apps/visual_hull/texture/hull_texture.h"
 #include "binding/base/arguments.h"
 #include "binding/base/bindings.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 #include "nef/export/to_mesh.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/mesh/mend_rounded.h"

@@ -2,7 +2,7 @@
 #include "binding/base/mesh_options.h"
 
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 
 namespace nef::python {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 
 #include <algorithm>
 #include <array>

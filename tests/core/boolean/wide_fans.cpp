@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Vertices of high degree: what is left out there meets in the vertex only, and pairs of neighbours are all that is
-// left. Random cases stand in fuzz/fuzzers/stars.cpp.
+// left. Random cases stand in fuzz/fuzzers/sets/stars.cpp.
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -10,7 +10,7 @@
 #include <set>
 
 #include "nef/construct/construct.h"
-#include "nef/geometry/direction_tree.h"
+#include "nef/geometry/search/direction_tree.h"
 #include "nef/geometry/vectors.h"
 #include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/surface/surface_patches.h"

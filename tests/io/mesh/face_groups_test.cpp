@@ -13,7 +13,7 @@
 #include "nef/construct/construct.h"
 #include "nef/export/to_mesh.h"
 #include "nef/io/file_bytes.h"
-#include "nef/io/mesh/glb_mesh.h"
+#include "nef/io/mesh/formats/glb_mesh.h"
 #include "nef/io/mesh/mend_rounded.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/operation/label_inputs.h"

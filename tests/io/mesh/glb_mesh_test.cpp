@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // GLB: damaged numbers are refused rather than taken for others, and no file unfolds without end.
-#include "nef/io/mesh/glb_mesh.h"
+#include "nef/io/mesh/formats/glb_mesh.h"
 
 #include <catch2/catch.hpp>
 #include <cstring>

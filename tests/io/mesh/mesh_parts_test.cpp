@@ -9,9 +9,9 @@
 
 #include "nef/base/error.h"
 #include "nef/export/to_mesh.h"
-#include "nef/io/mesh/glb_mesh.h"
+#include "nef/io/mesh/formats/glb_mesh.h"
+#include "nef/io/mesh/formats/threemf_mesh.h"
 #include "nef/io/mesh/mesh_reader.h"
-#include "nef/io/mesh/threemf_mesh.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/io/zip_archive.h"
 #include "nef/polyhedron.h"

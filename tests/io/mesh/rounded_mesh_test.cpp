@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "nef/export/to_mesh.h"
-#include "nef/geometry/spatial_order.h"
+#include "nef/geometry/search/spatial_order.h"
 #include "tests/support/literals.h"
 
 namespace nef::test {

@@ -11,7 +11,7 @@
 #include "apps/planner/assembly/closed_sets.h"
 #include "apps/planner/assembly/disassembly.h"
 #include "apps/planner/assembly/free_directions.h"
-#include "apps/program/exact_json.h"
+#include "apps/program/reports/exact_json.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/support/fixed_cases.h"
 #include "tests/support/report_shape.h"

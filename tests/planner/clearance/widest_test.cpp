@@ -8,7 +8,7 @@
 #include "apps/planner/clearance/widest.h"
 #include "apps/planner/path/path.h"
 #include "apps/planner/path/question.h"
-#include "apps/program/exact_json.h"
+#include "apps/program/reports/exact_json.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 #include "nef/distance/distance.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Witnesses of pairs of hulls: what they say is verified by arithmetic, and which of both it is by Booleans.
-#include "apps/planner/free_space/common_point.h"
+#include "apps/planner/intersection/common_point.h"
 
 #include <rapidcheck.h>
 

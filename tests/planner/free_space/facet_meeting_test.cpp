@@ -2,13 +2,13 @@
 //
 // Where segments cross facets, as far as doubles tell: the bound of the crossing point against rationals where it is
 // worst, and points on the border of a facet or a hair beside it.
-#include "apps/planner/free_space/facet_meeting.h"
+#include "apps/planner/intersection/facet_meeting.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "apps/planner/free_space/item_tree.h"
+#include "apps/planner/intersection/item_tree.h"
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
 #include "tests/support/next_to_zero.h"

@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "apps/planner/path/question.h"
-#include "apps/program/exact_json.h"
+#include "apps/program/reports/exact_json.h"
 #include "nef/construct/construct.h"
 #include "nef/io/mesh/mesh_writer.h"
 #include "tests/planner/command_helpers.h"

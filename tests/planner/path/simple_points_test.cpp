@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-#include "apps/program/exact_json.h"
+#include "apps/program/reports/exact_json.h"
 #include "nef/construct/construct.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"

@@ -7,7 +7,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "apps/planner/free_space/hulls_apart.h"
+#include "apps/planner/intersection/hulls_apart.h"
 #include "nef/construct/convex_hull.h"
 #include "nef/polyhedron.h"
 

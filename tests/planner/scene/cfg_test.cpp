@@ -6,7 +6,7 @@
 
 #include "apps/planner/scene/shapes.h"
 #include "apps/planner/turning/turning_search.h"
-#include "apps/program/exact_json.h"
+#include "apps/program/reports/exact_json.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 #include "tests/planner/command_helpers.h"

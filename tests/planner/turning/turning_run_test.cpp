@@ -7,7 +7,7 @@
 #include "apps/planner/command/runs/runs.h"
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/turning/turning_search.h"
-#include "apps/program/exact_json.h"
+#include "apps/program/reports/exact_json.h"
 #include "apps/view/glb.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"

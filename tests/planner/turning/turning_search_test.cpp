@@ -11,7 +11,7 @@
 #include "apps/planner/turning/turning_collision.h"
 #include "apps/planner/turning/turning_robot.h"
 #include "apps/planner/turning/turning_search.h"
-#include "apps/program/exact_json.h"
+#include "apps/program/reports/exact_json.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 #include "nef/geometry/vectors.h"

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "apps/minkowski/morphology.h"
-#include "apps/program/exact_json.h"
+#include "apps/program/reports/exact_json.h"
 #include "nef/construct/construct.h"
 #include "nef/geometry/vectors.h"
 #include "tests/planner/command_helpers.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/visual_hull/command/pictures.h"
+#include "apps/visual_hull/command/pictures/pictures.h"
 
 #include <opencv2/imgcodecs.hpp>
 

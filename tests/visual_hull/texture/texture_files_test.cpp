@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "apps/visual_hull/command/pictures.h"
+#include "apps/visual_hull/command/pictures/pictures.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/polyhedron.h"

@@ -9,8 +9,8 @@
 
 #include "apps/minkowski/convolution/facets/rounded_facets.h"
 #include "nef/base/monitor.h"
-#include "nef/geometry/box_tree.h"
 #include "nef/geometry/predicates.h"
+#include "nef/geometry/search/box_tree.h"
 
 namespace nef::minkowski {
 

@@ -18,7 +18,7 @@
 #include "apps/minkowski/convolution/arrangement/meeting_facets.h"
 #include "apps/minkowski/minkowski.h"
 #include "nef/base/threads/parallel.h"
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 #include "nef/mesh/edge_order.h"
 
 namespace nef::minkowski {

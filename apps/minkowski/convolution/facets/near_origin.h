@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "nef/geometry/box_tree.h"
+#include "nef/geometry/search/box_tree.h"
 
 namespace nef::minkowski {
 

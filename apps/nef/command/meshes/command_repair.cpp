@@ -14,7 +14,7 @@
 #include "apps/nef/command/commands.h"
 #include "apps/program/common_options.h"
 #include "nef/base/error.h"
-#include "nef/base/in_quotes.h"
+#include "nef/base/text/in_quotes.h"
 #include "nef/export/to_mesh.h"
 #include "nef/import/repair.h"
 #include "nef/io/file_bytes.h"

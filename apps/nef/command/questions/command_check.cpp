@@ -4,7 +4,7 @@
 #include <map>
 
 #include "apps/nef/command/commands.h"
-#include "nef/import/fill.h"
+#include "nef/import/repair/fill.h"
 #include "nef/import/try_from_mesh.h"
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"

@@ -14,7 +14,7 @@
 #include "apps/planner/command/report.h"
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/proofs/inseparable_proof.h"
-#include "apps/program/exact_json.h"
+#include "apps/program/reports/exact_json.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/base/timing/time_limit.h"

@@ -12,7 +12,7 @@
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/rigid/certified_path.h"
 #include "apps/planner/rigid_search/pose_metric.h"
-#include "apps/program/exact_json.h"
+#include "apps/program/reports/exact_json.h"
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
 #include "nef/base/timing/time_limit.h"

@@ -18,7 +18,7 @@
 #include "apps/planner/path/path_file.h"
 #include "apps/planner/path/queries.h"
 #include "apps/planner/path/question.h"
-#include "apps/program/exact_json.h"
+#include "apps/program/reports/exact_json.h"
 #include "nef/base/interruption.h"
 #include "nef/base/timing/time_limit.h"
 

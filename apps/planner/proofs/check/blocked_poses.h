@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/planner/free_space/hulls_apart.h"
+#include "apps/planner/intersection/hulls_apart.h"
 #include "apps/planner/orientation/orientation_cells.h"
 #include "apps/planner/proofs/path_proof.h"
 

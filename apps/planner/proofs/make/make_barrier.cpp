@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "apps/minkowski/minkowski.h"
-#include "apps/planner/free_space/common_point.h"
+#include "apps/planner/intersection/common_point.h"
 #include "apps/planner/proofs/check/check_parts.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"

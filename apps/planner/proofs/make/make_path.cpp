@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/planner/free_space/common_point.h"
+#include "apps/planner/intersection/common_point.h"
 #include "apps/planner/proofs/path_proof.h"
 #include "apps/planner/rigid/separation.h"
 #include "nef/base/error.h"

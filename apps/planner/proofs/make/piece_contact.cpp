@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/planner/free_space/common_point.h"
+#include "apps/planner/intersection/common_point.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef::planner {

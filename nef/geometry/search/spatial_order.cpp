@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "nef/geometry/search/spatial_order.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace nef {
+namespace {
+
+constexpr unsigned kBits = 21;  // an axis: three make a word
+
+// Two zeros before each of the lower 21 bits.
+std::uint64_t spread(std::uint64_t x) {
+  x = (x | x << 32U) & 0x001f00000000ffffULL;
+  x = (x | x << 16U) & 0x001f0000ff0000ffULL;
+  x = (x | x << 8U) & 0x100f00f00f00f00fULL;
+  x = (x | x << 4U) & 0x10c30c30c30c30c3ULL;
+  return (x | x << 2U) & 0x1249249249249249ULL;
+}
+
+bool finite(const std::array<double, 3>& p) {
+  return std::isfinite(p[0]) && std::isfinite(p[1]) && std::isfinite(p[2]);
+}
+
+// By cell; equal ones keep their order. In turns of so many bits: a table of as many places as they tell apart stays in
+// the fastest cache.
+void sort_by_cell(std::vector<SpatialKey>& keys) {
+  constexpr std::size_t kFew = 2000;  // sorted faster by comparing
+  if (keys.size() < kFew) {
+    std::sort(keys.begin(), keys.end(), [](const SpatialKey& a, const SpatialKey& b) {
+      return a.cell != b.cell ? a.cell < b.cell : a.index < b.index;
+    });
+    return;
+  }
+  constexpr unsigned kDigit = 11;
+  constexpr std::size_t kPlaces = std::size_t{1} << kDigit;
+  std::vector<SpatialKey> sorted(keys.size());
+  for (unsigned shift = 0; shift < 64; shift += kDigit) {
+    const auto digit = [shift](const SpatialKey& key) { return key.cell >> shift & (kPlaces - 1); };
+    std::array<std::uint32_t, kPlaces> place{};
+    for (const SpatialKey& key : keys) ++place[digit(key)];
+    if (place[digit(keys[0])] == keys.size()) continue;
+    std::exclusive_scan(place.begin(), place.end(), place.begin(), 0U);
+    for (const SpatialKey& key : keys) sorted[place[digit(key)]++] = key;
+    keys.swap(sorted);
+  }
+}
+
+std::vector<std::uint32_t> indices_of(const std::vector<SpatialKey>& keys) {
+  std::vector<std::uint32_t> order;
+  order.reserve(keys.size());
+  for (const SpatialKey& key : keys) order.push_back(key.index);
+  return order;
+}
+
+}  // namespace
+
+std::vector<SpatialKey> spatial_keys(std::span<const std::array<double, 3>> points) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::array<double, 3> low{kInfinity, kInfinity, kInfinity};
+  double size = 0;  // of the longest side: cells are cubes
+  for (const auto& p : points) {
+    if (!finite(p)) continue;
+    for (std::size_t i = 0; i < 3; ++i) low[i] = std::min(low[i], p[i]);
+  }
+  for (const auto& p : points) {
+    if (!finite(p)) continue;
+    for (std::size_t i = 0; i < 3; ++i) size = std::max(size, p[i] - low[i]);
+  }
+  constexpr double kCells = (1U << kBits) - 1;
+  const double scale = size > 0 && size < kInfinity ? kCells / size : 0.0;
+  std::vector<SpatialKey> keys(points.size());
+  for (std::uint32_t v = 0; v < points.size(); ++v) {
+    std::uint64_t key = std::numeric_limits<std::uint64_t>::max();
+    if (finite(points[v])) {
+      key = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double cell = std::min(kCells, (points[v][i] - low[i]) * scale);
+        key |= spread(static_cast<std::uint64_t>(cell)) << i;
+      }
+    }
+    keys[v] = {key, v};
+  }
+  sort_by_cell(keys);
+  return keys;
+}
+
+std::vector<std::uint32_t> spatial_order(std::span<const std::array<double, 3>> points) {
+  return indices_of(spatial_keys(points));
+}
+
+std::vector<std::uint32_t> spatial_order(std::span<const std::array<double, 3>> points,
+                                         const std::function<bool(std::uint32_t, std::uint32_t)>& less) {
+  std::vector<SpatialKey> keys = spatial_keys(points);
+  for (auto begin = keys.begin(); begin != keys.end();) {
+    auto end = begin + 1;
+    while (end != keys.end() && end->cell == begin->cell) ++end;
+    if (end - begin > 1) {
+      std::sort(begin, end, [&less](const auto& a, const auto& b) { return less(a.index, b.index); });
+    }
+    begin = end;
+  }
+  return indices_of(keys);
+}
+
+}  // namespace nef

@@ -223,7 +223,7 @@ void refine_views(const Run& run, const Scene& scene, const std::vector<Silhouet
       const ImageSize frame = s.cut_by_frame ? ImageSize{s.image_size.width, s.image_size.height} : ImageSize{};
       given.push_back({scene.views[i].name, result.views[i].camera, &outlines[i], frame, scene.views[i].distortion});
     }
-    refine::RefineOptions options{result.origin, {}};
+    refine::RefineOptions options{result.origin, {}, scene.camera_error};
     if (scene.guessed) options.turntable = size_of_all(result.views);
     result.refinement = refine::refine_cameras(given, options, watching);
     if (!result.refinement->accepted) return;

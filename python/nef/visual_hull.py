@@ -293,13 +293,15 @@ class Refinement(NamedTuple):
 
 
 def refine(masks: Sequence[Any], cameras: Optional[Sequence[Any]] = None, names: Optional[Sequence[str]] = None, *,
-           half_pixels: bool = False, soft: bool = False, threads: int = 1) -> Refinement:
+           half_pixels: bool = False, soft: bool = False, camera_error: Optional[float] = None, threads: int = 1) -> Refinement:
     """Corrects cameras so that the silhouettes agree, if this also improves pieces of outlines that were not used;
     otherwise returns those given. The result does not depend on the number of threads.
 
     - masks, names, half_pixels, soft, threads: as in compute
     - cameras: as in compute; None: the masks are of one full turn of a turntable in equal steps, with square pixels, of
       which nothing else is known; the distance of the camera from the axis, which is z, is then about 1
+    - camera_error: by how many pixels the cameras are known to be off in their images of the object (root mean square; as
+      Calibration has it): they stay as near as that, unless the silhouettes say more
 
     Raises InputError for an empty mask, a matrix that is not a camera, or too few views.
     """
@@ -309,7 +311,7 @@ def refine(masks: Sequence[Any], cameras: Optional[Sequence[Any]] = None, names:
     if len(masks) != len(names) or (given is not None and len(given) != len(masks)):
         raise InputError(f"{len(masks)} masks need as many cameras and names")
     try:
-        answer = _visual_hull.refine(names, masks, given, half_pixels, soft, threads)
+        answer = _visual_hull.refine(names, masks, given, half_pixels, soft, camera_error, threads)
     except InputError as error:
         raise _told(error, names) from None
     found = _refinement(answer)
@@ -390,6 +392,8 @@ class Calibration(NamedTuple):
     distortion: List[float]
     #: pixels between corners as seen and as the cameras see them (root mean square)
     error: float
+    #: pixels that the cameras are off by in their images of things on the board, as far as the noise of corners tells
+    camera_error: Optional[float]
     #: a list of CalibratedView, in the order of the photographs
     views: List[CalibratedView]
     #: the same of the photographs that the lens was determined by, if there were any

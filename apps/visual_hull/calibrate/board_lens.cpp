@@ -162,6 +162,19 @@ class BoardCamera {
     return result;
   }
 
+  // What a pose that was fitted to a board makes the image of things on it be off by: its covariance is s^2 (J^T J)^-1,
+  // with s of the corners' distances and J how their images move with the pose.
+  [[nodiscard]] double off_px(const SeenBoard& view, const RawPose& pose) const {
+    const double spare = 2 * static_cast<double>(view.points.size()) - 6;
+    if (!(spare > 0)) return HUGE_VAL;
+    double squares = 0;
+    for (const double d : distances(view, pose)) squares += d * d;
+    const cv::Mat j = by_pose(view.corners, pose);
+    const cv::Mat off = by_pose(things_on(view.corners), pose);
+    const cv::Mat covariance = (squares / spare) * cv::Mat(j.t() * j).inv(cv::DECOMP_SVD);
+    return std::sqrt(cv::trace(off * covariance * off.t())[0] / (off.rows / 2.0));
+  }
+
   [[nodiscard]] double error(const SeenBoard& view, const RawPose& pose) const {
     double sum = 0;
     for (const double d : distances(view, pose)) sum += d * d;
@@ -169,6 +182,32 @@ class BoardCamera {
   }
 
  private:
+  // How images of points move with the three numbers of the rotation and the three of the shift: two rows a point.
+  [[nodiscard]] cv::Mat by_pose(const std::vector<cv::Point3d>& points, const RawPose& pose) const {
+    std::vector<cv::Point2d> seen;
+    cv::Mat j;
+    cv::projectPoints(points, pose.rotation, pose.shift, k_, distortion_, seen, j);
+    return j.colRange(0, 6);
+  }
+
+  // Points of a block on the seen part of a board, as high as that is long.
+  static std::vector<cv::Point3d> things_on(const std::vector<cv::Point3d>& corners) {
+    cv::Point3d low = corners.front();
+    cv::Point3d high = low;
+    for (const cv::Point3d& p : corners) {
+      low = {std::min(low.x, p.x), std::min(low.y, p.y), 0};
+      high = {std::max(high.x, p.x), std::max(high.y, p.y), 0};
+    }
+    const double height = std::max(high.x - low.x, high.y - low.y);
+    std::vector<cv::Point3d> result;
+    for (const double z : {0.0, height / 2, height}) {
+      for (const double x : {low.x, high.x}) {
+        for (const double y : {low.y, high.y}) result.emplace_back(x, y, z);
+      }
+    }
+    return result;
+  }
+
   cv::Mat k_;
   std::vector<double> distortion_;
 };
@@ -237,6 +276,7 @@ std::optional<BoardPose> pose_by_board(const SeenBoard& view, const Lens& lens) 
     BoardPose found{{rotation_of_vector(pose.rotation), {t[0], t[1], t[2]}},
                     camera.error(trusted, pose),
                     trusted.points.size(),
+                    camera.off_px(trusted, pose),
                     false};
     if (std::isfinite(found.error_px) && t[2] > 0) poses.push_back(found);
   }

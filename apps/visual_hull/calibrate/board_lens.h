@@ -32,12 +32,14 @@ struct BoardPose {
   Pose pose;
   double error_px = 0;      ///< root mean square, of the corners that count
   std::size_t corners = 0;  ///< that count
+  double off_px = 0;        ///< of the image of what stands on the board, by the noise of corners: root mean square
   bool ambiguous = false;   ///< another pose, of the other tilt, explains the corners nearly as well
 };
 
 /// The pose of a camera by the corners of a board [Collins, Bartoli 2014], then by least squares. Corners that are off
 /// by more than a fifth of a pixel and three times the median do not count, if a quarter of them at most are, and eight
-/// are left: the object, its outline or the border of a shadow lies beside them. Nothing if there is none.
+/// are left: the object, its outline or the border of a shadow lies beside them. `off_px` is for points up to the
+/// longer side of the seen part of the board above it. Nothing if there is none.
 std::optional<BoardPose> pose_by_board(const SeenBoard& view, const Lens& lens);
 
 }  // namespace nef::visual_hull

@@ -102,6 +102,7 @@ void place_views(BoardSeries& series, const Lens& lens) {
     view.pose = found->pose;
     view.error_px = found->error_px;
     view.corners = found->corners;
+    view.off_px = found->off_px;
     if (found->ambiguous) view.refused = "two poses explain its corners: the board is too small in the picture";
   }
 }
@@ -206,11 +207,15 @@ nef::Messages calibration_notes(const Calibration& calibration, bool own_lens) {
 Scene Calibration::scene() const {
   Scene scene;
   scene.format = "calibration by a board";
+  double squares = 0;
   for (const CalibratedView& view : views) {
     if (!view.refused.empty()) continue;
     scene.views.push_back(make_view(view.photograph.filename().string(), lens.lens, view.pose));
     scene.views.back().image = view.photograph;
+    squares += view.off_px * view.off_px;
   }
+  const double error = std::sqrt(squares / static_cast<double>(std::max<std::size_t>(1, scene.views.size())));
+  if (std::isfinite(error) && error > 0) scene.camera_error = error;
   return scene;
 }
 

@@ -20,6 +20,7 @@ struct CalibratedView {
   std::filesystem::path photograph;
   std::size_t corners = 0;  ///< of the board that were found; where there is a pose, those that count (board_lens.h)
   double error_px = 0;      ///< root mean square distance between corners as seen and as the camera sees them
+  double off_px = 0;        ///< root mean square of what the camera is off by in its image of things on the board
   Pose pose;                ///< in the frame of the board (board_corners)
   std::string refused;      ///< why the photograph is of no use; empty: it has a camera
 };
@@ -32,7 +33,8 @@ struct Calibration {
   double error_px = 0;                     ///< root mean square over all corners of views that have a camera
   nef::Messages notes;                     ///< photographs that were refused, and what the series does not determine
 
-  /// The views that have a camera; their images are the photographs, lengths millimetres.
+  /// The views that have a camera; their images are the photographs, lengths millimetres. It tells how far cameras are
+  /// off, so that their refinement by silhouettes knows.
   [[nodiscard]] Scene scene() const;
 };
 

@@ -57,6 +57,7 @@ nef::Json calibration_report(const Calibration& calibration, const Board& board)
   const BoardLens& lens = calibration.lens;
   nef::Json report{{"board", board.text()},
                    {"error_px", calibration.error_px},
+                   {"camera_error_px", calibration.scene().camera_error.value_or(0)},
                    {"lens",
                     {{"focal_px", {lens.lens.fx, lens.lens.fy}},
                      {"focal_deviation", lens.focal_share},

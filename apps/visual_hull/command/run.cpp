@@ -108,6 +108,7 @@ void write_refined_scene(const Arguments& a, Scene scene, const Result& result) 
   const std::vector<fs::path> images =
       images_of(scene, scene_folder(a.scene), a.images.empty() ? std::nullopt : std::optional<fs::path>(a.images));
   scene.origin = result.origin;
+  if (result.refinement->accepted) scene.camera_error.reset();  // it was that of other cameras
   for (std::size_t i = 0; i < scene.views.size(); ++i) {
     scene.views[i].camera = result.refinement->views[i].camera;
     if (!images[i].empty()) scene.views[i].image = images[i];

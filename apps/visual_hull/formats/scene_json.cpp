@@ -158,7 +158,8 @@ Scene read_json_scene(const std::string& text, const std::filesystem::path& file
   Scene scene;
   scene.format = "a JSON scene";
   std::set<std::string> ignored;
-  note_ignored(document, {"cameras", "box", "threshold", "channel", "invert", "pixel_origin"}, file.string(), ignored);
+  note_ignored(document, {"cameras", "box", "threshold", "channel", "invert", "pixel_origin", "camera_error_px"},
+               file.string(), ignored);
   for (const json& entry : document["cameras"]) {
     scene.views.push_back(read_view(entry, scene.views.size() + 1, file, ignored));
   }
@@ -186,6 +187,11 @@ Scene read_json_scene(const std::string& text, const std::filesystem::path& file
     if (!document["invert"].is_boolean()) throw nef::InputError(file.string() + ", invert: true or false is needed");
     if (!scene.threshold) scene.threshold.emplace();
     scene.threshold->invert = document["invert"].get<bool>();
+  }
+  if (document.contains("camera_error_px")) {
+    const std::string where = file.string() + ", camera_error_px";
+    scene.camera_error = nef::nearest_double(nef::rational_of(document["camera_error_px"], where));
+    if (!(*scene.camera_error > 0)) throw nef::InputError(where + ": a number of pixels above 0 is needed");
   }
   return scene;
 }

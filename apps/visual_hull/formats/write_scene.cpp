@@ -73,6 +73,8 @@ std::string write_scene_json(const Scene& scene) {
   for (const View& view : scene.views) views.push_back(view_json(view));
   std::string text = fmt::format("{{\n  \"cameras\": [\n{}\n  ]", fmt::join(views, ",\n"));
   if (scene.origin == PixelOrigin::kCorner) text += ",\n  \"pixel_origin\": \"corner\"";
+  // Ten digits: an estimate.
+  if (scene.camera_error) text += fmt::format(",\n  \"camera_error_px\": {:.10f}", *scene.camera_error);
   if (scene.box) {
     std::vector<Rational> corners(scene.box->low.begin(), scene.box->low.end());
     corners.insert(corners.end(), scene.box->high.begin(), scene.box->high.end());

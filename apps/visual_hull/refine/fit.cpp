@@ -11,11 +11,13 @@
 namespace nef::visual_hull::refine {
 namespace {
 
-constexpr double kPrior = 1.0 / 300;  // pixels of residual for a pixel of motion
-constexpr double kStill = 0.003;      // pixels: a step that is none
-constexpr double kNoGain = 1e-7;      // square pixels of the mean loss
-constexpr double kStepGain = 3e-3;    // of the mean loss, in a step
-constexpr int kBetweenSearches = 3;   // steps
+constexpr double kPrior = 1.0 / 300;   // pixels of residual for a pixel of motion, where nothing is known of cameras
+constexpr double kOutlineNoise = 0.2;  // pixels, what stairs of pixels leave of an outline
+constexpr double kOutlineCount = 60;   // samples of a view whose noise is their own
+constexpr double kStill = 0.003;       // pixels: a step that is none
+constexpr double kNoGain = 1e-7;       // square pixels of the mean loss
+constexpr double kStepGain = 3e-3;     // of the mean loss, in a step
+constexpr int kBetweenSearches = 3;    // steps
 constexpr double kFirstDamping = 1e-2;
 
 using Values = std::vector<std::vector<Coherence>>;
@@ -30,14 +32,22 @@ struct NormalEquations {
 
 /// One stage of a fit: what stays the same while cameras move.
 struct Stage {
-  const std::vector<MovingCamera>& start;
+  const std::vector<MovingCamera>& held;
   const std::vector<Outline>& outlines;
   const FitOptions& options;
   Ball ball;
   std::vector<Eigen::Vector3d> points;
   double scale;
+  double prior;  // pixels of residual for a pixel of motion from `held`
   const nef::Monitor& monitor;
 };
+
+// A view's residuals weigh as 1 / noise^2 together, its six parameters as 1 / known_to^2 each; costs are a mean of
+// squares, in which the noise is one.
+double prior_of(const FitOptions& options) {
+  if (options.known.empty()) return kPrior;
+  return std::max(kPrior, kOutlineNoise * std::sqrt(6 / kOutlineCount) / options.known_to);
+}
 
 double number_of_samples(const Stage& stage) {
   double n = 0;
@@ -50,11 +60,11 @@ double number_of_samples(const Stage& stage) {
 
 double loss(double r, double scale) { return r * r / (1 + r * r / (scale * scale)); }
 
-// The mean square, over all views and points, of the motion from the start.
+// The mean square, over all views and points, of the motion from where cameras are held.
 double moved(const Stage& stage, const std::vector<MovingCamera>& cameras) {
   double sum = 0;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
-    const double d = image_distance(cameras[i], stage.start[i], stage.points);
+    const double d = image_distance(cameras[i], stage.held[i], stage.points);
     sum += d * d / static_cast<double>(cameras.size());
   }
   return sum;
@@ -69,7 +79,7 @@ double cost(const Stage& stage, const std::vector<MovingCamera>& cameras, const 
       if (r < 0 && belongs(stage.outlines[i].samples[k], stage.options.pieces)) sum += loss(r, stage.scale);
     }
   }
-  return sum / number_of_samples(stage) + kPrior * kPrior * moved(stage, cameras);
+  return sum / number_of_samples(stage) + stage.prior * stage.prior * moved(stage, cameras);
 }
 
 /// A row's entries by parameter.
@@ -108,7 +118,7 @@ void add_motions(const Stage& stage, const std::vector<MovingCamera>& cameras, c
       Matrix26 j;
       j << -d * cross_matrix(own - p.pivots()[i]), p.pivots()[i].z() * d;
       const Eigen::Vector2d seen = cameras[i].seen(own);
-      const Eigen::Vector2d from = seen - stage.start[i].seen(stage.start[i].inward(point));
+      const Eigen::Vector2d from = seen - stage.held[i].seen(stage.held[i].inward(point));
       const Eigen::Vector2d zoom = cameras[i].by_zoom(seen);
       for (int axis = 0; axis < 2; ++axis) {
         row.clear();
@@ -118,8 +128,8 @@ void add_motions(const Stage& stage, const std::vector<MovingCamera>& cameras, c
       }
     }
   }
-  sum.h += kPrior * kPrior * sum.motion;
-  sum.g += kPrior * kPrior * pull;
+  sum.h += stage.prior * stage.prior * sum.motion;
+  sum.g += stage.prior * stage.prior * pull;
 }
 
 NormalEquations equations(const Stage& stage, const std::vector<MovingCamera>& cameras, const Parameters& p,
@@ -242,9 +252,11 @@ std::vector<MovingCamera> fit(const std::vector<MovingCamera>& start, const std:
   std::vector<MovingCamera> cameras = start;
   for (const double scale : options.scales) {
     const Ball ball = object_ball(cameras, outlines);
-    // What is determined has come nearer to its place at coarser scales and is not to be held by where it began.
-    const std::vector<MovingCamera> held = cameras;
-    const Stage stage{held, outlines, options, ball, ball_points(ball.centre, ball.radius / 1.3), scale, monitor};
+    // What is determined has come nearer to its place at coarser scales and is not to be held by where it began, unless
+    // that is known.
+    const std::vector<MovingCamera> held = options.known.empty() ? cameras : options.known;
+    const std::vector<Eigen::Vector3d> points = ball_points(ball.centre, ball.radius / 1.3);
+    const Stage stage{held, outlines, options, ball, points, scale, prior_of(options), monitor};
     run_stage(stage, cameras);
   }
   return cameras;

@@ -55,14 +55,17 @@ struct FitOptions {
   std::vector<std::uint8_t> used;  ///< views that take part; others move with the model only
   std::vector<std::uint8_t> free =
       {};  ///< views that move, of the model of six a view; none: all, and the focal length
+  /// Where cameras are known to stand, as far as `known_to` says; empty: nothing is known.
+  std::vector<MovingCamera> known = {};
+  double known_to = 0;                  ///< pixels that the images of the known cameras are off by
   std::vector<double> scales{8, 3, 1};  ///< of the loss, in pixels, one after the other
   int rounds = 25;                      ///< steps at most, at each scale
 };
 
 /// Levenberg and Marquardt's method on the residuals min(0, coherence) with the loss of [Geman, McClure 1987]. Motions
 /// are held by a weak prior (a 300th of a pixel for each pixel that a view moves at a scale), so that what outlines
-/// do not determine stays. The position, orientation and size of the scene are free (moving_camera.h: similarity).
-/// O(rounds) times `measure`.
+/// do not determine stays; where it is known how far cameras are off, by what that says against the noise of outlines.
+/// The position, orientation and size of the scene are free (moving_camera.h: similarity). O(rounds) times `measure`.
 std::vector<MovingCamera> fit(const std::vector<MovingCamera>& start, const std::vector<Outline>& outlines,
                               const FitOptions& options, const nef::Monitor& monitor);
 

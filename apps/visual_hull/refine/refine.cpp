@@ -41,7 +41,19 @@ using Used = std::vector<std::uint8_t>;
 struct Task {
   std::vector<Outline> outlines;
   Cameras given;
+  std::optional<double> camera_error;  // pixels that those are known to be off by
   const nef::Monitor& monitor;
+
+  // What fits of any kind know of cameras.
+  [[nodiscard]] FitOptions options(const Used& used) const {
+    FitOptions options;
+    options.used = used;
+    if (camera_error) {
+      options.known = given;
+      options.known_to = *camera_error;
+    }
+    return options;
+  }
 
   [[nodiscard]] Values values(const Cameras& cameras, const Used& used) const {
     Values result;
@@ -68,11 +80,10 @@ std::vector<double> scales_for(const ResidualSummary& residual) {
 
 Cameras fitted(const Task& task, const Cameras& start, const Used& used, Model model, Pieces pieces,
                const std::optional<Axis>& axis, const ResidualSummary& residual) {
-  FitOptions options;
+  FitOptions options = task.options(used);
   options.model = model;
   options.axis = axis;
   options.pieces = pieces;
-  options.used = used;
   options.scales = scales_for(residual);
   return fit(start, task.outlines, options, task.monitor);
 }
@@ -216,8 +227,7 @@ bool move_one(const Task& task, const Used& used, Chosen& chosen) {
   const auto count = static_cast<double>(samples.size());
   const double most = missed_by(samples, before) / count;
   if (most < kLeastGain) return false;
-  FitOptions options;
-  options.used = used;
+  FitOptions options = task.options(used);
   options.free.assign(used.size(), 0);
   options.free[worst] = 1;
   options.pieces = Pieces::kFitted;
@@ -374,7 +384,7 @@ const char* model_name(Model model) {
 Refinement refine_cameras(const std::vector<GivenView>& views, const RefineOptions& options,
                           const nef::Monitor& monitor) {
   if (views.size() < kFewestViews) throw nef::InputError("--refine: three views at least are needed");
-  Task task{{}, {}, monitor};
+  Task task{{}, {}, options.turntable ? std::nullopt : options.camera_error, monitor};
   task.outlines.resize(views.size());
   nef::parallel_for(views.size(), monitor, [&](std::size_t i, const nef::Monitor&) {
     const GivenView& view = views[i];

@@ -61,6 +61,9 @@ struct RefineOptions {
   /// Size of the images of a turntable of which nothing is known but that its steps are equal: its cameras are found
   /// first (find_turntable.h) instead of taking those of the views.
   std::optional<ImageSize> turntable = {};
+  /// Root mean square of what the given cameras are off by in their images of the object, in pixels, where that is
+  /// known: as far as outlines do not say more, cameras stay there. Above zero.
+  std::optional<double> camera_error = {};
 };
 
 /// Refines cameras. The smallest model is taken that explains pieces of outlines that it has not seen better than what

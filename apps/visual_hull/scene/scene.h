@@ -78,6 +78,8 @@ struct Scene {
   std::vector<std::filesystem::path> image_folders;  ///< where images are looked up after the scene's own folder
   std::optional<WorldBox> box;
   std::optional<ThresholdOptions> threshold;
+  /// Root mean square of what cameras are off by in their images of the object, in pixels, where a calibration tells.
+  std::optional<double> camera_error;
   bool guessed = false;  ///< the cameras stand for a turntable of equal steps of which nothing else is known
   std::vector<std::string> ignored;  ///< names in the file that mean nothing to it, in their order
 };

@@ -352,7 +352,8 @@ cv::Mat mask_of(const Mask& mask) {
 
 // Without matrices the cameras are those of a turntable, to be found.
 py::dict refine(const std::vector<std::string>& names, const std::vector<Mask>& masks, const py::object& matrices,
-                bool half_pixels, bool soft, unsigned threads) {
+                bool half_pixels, bool soft, std::optional<double> camera_error, unsigned threads) {
+  if (camera_error && !(*camera_error > 0)) throw InputError("camera_error must be above 0");
   std::vector<cv::Mat> images;
   std::vector<nef::visual_hull::Camera> cameras;
   for (std::size_t i = 0; i < masks.size(); ++i) {
@@ -379,7 +380,7 @@ py::dict refine(const std::vector<std::string>& names, const std::vector<Mask>& 
       views.push_back(
           {names[i], cameras[i], &seen[i].region, seen[i].cut_by_frame ? size : nef::visual_hull::ImageSize{}, {}});
     }
-    nef::visual_hull::refine::RefineOptions options{silhouettes.origin, {}};
+    nef::visual_hull::refine::RefineOptions options{silhouettes.origin, {}, camera_error};
     if (found && !images.empty()) options.turntable = nef::visual_hull::ImageSize{images[0].cols, images[0].rows};
     return nef::visual_hull::refine::refine_cameras(views, options, monitor.on_threads(threads));
   });
@@ -439,6 +440,7 @@ py::dict calibrate(const std::vector<std::string>& photographs, const std::strin
   result["principal_point_assumed"] = found.centred;
   result["distortion"] = found.lens.distortion;
   result["error"] = made.error_px;
+  result["camera_error"] = made.scene().camera_error;
   result["views"] = calibrated_views(made, made.views);
   result["lens_views"] = calibrated_views(made, made.lens_views);
   result["notes"] = made.notes;

@@ -91,6 +91,21 @@ TEST_CASE("Cameras of a turntable come within .1 degrees of the truth, by the bo
   CHECK_THAT(found.notes[0], Contains("its middle is assumed") && Contains("--lens"));
   const Scene scene = found.scene();
   REQUIRE(scene.views.size() == 6);
+  // What the scene says of its cameras is what they are off by, in the image of a point above the board.
+  REQUIRE(scene.camera_error);
+  double squares = 0;
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    const Eigen::Vector3d point(20, -15, 40);
+    const auto seen = [&](const Pose& pose) -> Eigen::Vector2d {
+      return 760 * (pose.rotation * point + pose.translation).hnormalized();
+    };
+    squares += (seen(found.views[i].pose) - seen(truth[i].pose)).squaredNorm() / 6;
+  }
+  CHECK(std::sqrt(squares) < 3 * *scene.camera_error);
+  CHECK(*scene.camera_error < 3 * std::sqrt(squares));
+  const std::filesystem::path file = s.folder() / "scene.json";
+  write_scene_file(file, scene);
+  CHECK(read_scene(file).camera_error == Approx(*scene.camera_error));
   CHECK(scene.views[3].name == "view3.png");
   CHECK(scene.views[3].distortion.coefficients == found.lens.lens.distortion);
 }

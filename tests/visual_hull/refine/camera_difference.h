@@ -31,13 +31,14 @@ inline std::vector<Camera> cameras_by(const refine::Refinement& refined) {
 }
 
 /// What refinement makes of cameras by the silhouettes of a set.
-inline refine::Refinement refined_cameras(const Set& set, const std::vector<Shot>& given, unsigned threads = 1) {
+inline refine::Refinement refined_cameras(const Set& set, const std::vector<Shot>& given, unsigned threads = 1,
+                                          std::optional<double> camera_error = {}) {
   std::vector<refine::GivenView> views;
   const std::vector<Camera> cameras = cameras_by(given);
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     views.push_back({std::to_string(i), cameras[i], &set.silhouettes[i], {}, {}});
   }
-  return refine::refine_cameras(views, {PixelOrigin::kCenter, {}}, nef::Monitor{}.on_threads(threads));
+  return refine::refine_cameras(views, {PixelOrigin::kCenter, {}, camera_error}, nef::Monitor{}.on_threads(threads));
 }
 
 /// How far cameras are from the truth, in pixels, after the best similarity of space.

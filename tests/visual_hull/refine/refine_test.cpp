@@ -174,6 +174,25 @@ TEST_CASE("What a ball does not determine is said") {
   CHECK(all.undetermined.empty());
 }
 
+// A ball leaves open how cameras stand around it: without a word on how good they are, they end pixels away.
+TEST_CASE("Cameras whose error is known stay as near as that where outlines do not say more") {
+  constexpr double kError = 0.5;
+  const std::vector<Ellipsoid> ball{{{0, 0, 0}, 1.5 * Eigen::Matrix3d::Identity()}};
+  const Set set = rendered_set(ball, ring(12, false));
+  const std::vector<Shot> given = disturbed(set.truth, 0.06, 0.5, 1.001, 3);
+  const double before = difference(cameras_by(given), set.truth).pixels;
+  CHECK(before < 2 * kError);
+  const Refinement held = refined_cameras(set, given, 1, kError);
+  CHECK(difference(cameras_by(held), set.truth).pixels < 1.1 * before);
+  for (const refine::RefinedView& view : held.views) CHECK(view.moved_px < 3 * kError);
+  // Where outlines say more, they are heard: cameras come nearer than what they were known to.
+  const Set generic = rendered_set(generic_object(2), ring(12, false));
+  const std::vector<Shot> off = disturbed(generic.truth, 0.12, 1, 1.002, 3);
+  const Refinement better = refined_cameras(generic, off, 1, 1.0);
+  CHECK(better.accepted);
+  CHECK(difference(cameras_by(better), generic.truth).pixels < difference(cameras_by(off), generic.truth).pixels / 3);
+}
+
 TEST_CASE("Refined cameras do not depend on threads") {
   const Set set = rendered_set(generic_object(6), ring(10, false));
   const std::vector<Shot> given = disturbed(set.truth, 0.5, 5, 1.01, 5);

@@ -27,10 +27,10 @@ cp "$packages"/*.deb "$packages"/*.whl tests/docs/run_commands.py "$bare/tmp"
 
 chroot "$bare" env DEBIAN_FRONTEND=noninteractive bash -euo pipefail <<'INSIDE'
 apt-get update -q >/dev/null
-apt-get install -y -q --no-install-recommends /tmp/*.deb >/tmp/apt.log || { tail -20 /tmp/apt.log; exit 1; }
+apt-get install -y -q /tmp/*.deb >/tmp/apt.log || { tail -20 /tmp/apt.log; exit 1; }
 nef --version
 # What the tutorials build with, and what reads the proofs.
-apt-get install -y -q --no-install-recommends g++ cmake pkg-config libompl-dev python3-venv >/tmp/apt.log || { tail -20 /tmp/apt.log; exit 1; }
+apt-get install -y -q --no-install-recommends build-essential cmake pkg-config libompl-dev python3-venv >/tmp/apt.log || { tail -20 /tmp/apt.log; exit 1; }
 cd /usr/share/doc/nef-programs
 NEF_PREFIX=/usr python3 /tmp/run_commands.py "$PWD" /usr/bin /tmp/tutorials docs/tutorials/*.md | tail -20
 apt-get remove -y -q python3-nef >/dev/null

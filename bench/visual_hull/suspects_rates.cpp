@@ -15,6 +15,7 @@
 
 #include "apps/visual_hull/cones/bounds.h"
 #include "apps/visual_hull/visual_hull.h"
+#include "bench/visual_hull/unseen_sets.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
 
@@ -215,6 +216,22 @@ void print(const std::string& name, const Counts& c) {
                            percent(c.three), percent(c.named), percent(c.wrong));
 }
 
+// What thresholds are chosen and judged by; `damaged`: the view that is, if one is.
+TopView top_view(const Consistency& found, std::size_t set, std::optional<std::size_t> damaged) {
+  constexpr double kFewestLines = 4;  // as in compare_views
+  const std::vector<std::size_t> ranked = found.ranked();
+  const ViewConsistency& first = found.views[ranked[0]];
+  const std::size_t rays = std::clamp<std::size_t>(10000 / found.views.size(), 100, 300);
+  TopView top;
+  top.set = set;
+  top.damaged = damaged.has_value();
+  top.right = damaged == ranked[0];
+  top.seen = first.fall * static_cast<double>(rays) >= kFewestLines;
+  top.score = first.score;
+  top.lead = first.score - found.views[ranked[1]].score;
+  return top;
+}
+
 struct Alarms {
   std::size_t sets = 0;
   std::size_t alarms = 0;
@@ -228,24 +245,29 @@ void run(const std::vector<std::string>& scenes, std::size_t views_a_kind, std::
   Alarms parts;
   double comparing = 0;
   std::size_t comparisons = 0;
-  for (const std::string& file : scenes) {
-    const Set set = load(file);
+  std::vector<TopView> tops;
+  for (std::size_t number = 0; number < scenes.size(); ++number) {
+    const Set set = load(scenes[number]);
     std::vector<Seen> views;
     for (std::size_t v = 0; v < set.masks.size(); ++v) {
       views.push_back(seen(set, set.scene.views[v].camera, set.masks[v]).value());
     }
     const WorldBox box = box_of(views, {});
     ++clean.sets;
-    if (const Consistency found = compared(views, box); found.guilty) {
+    const Consistency of_clean = compared(views, box);
+    tops.push_back(top_view(of_clean, number, std::nullopt));
+    if (of_clean.guilty) {
       ++clean.alarms;
-      std::cerr << set.name << ", clean: " << views[*found.guilty].camera.name() << " is accused\n";
+      std::cerr << set.name << ", clean: " << views[*of_clean.guilty].camera.name() << " is accused\n";
     }
     for (std::size_t k = 0; k < subsets; ++k) {
       std::vector<Seen> some = views;
       std::shuffle(some.begin(), some.end(), random);
       some.resize(std::max<std::size_t>(6, some.size() / 2));
       ++parts.sets;
-      if (compared(some, box_of(some, box)).guilty) ++parts.alarms;
+      const Consistency of_some = compared(some, box_of(some, box));
+      tops.push_back(top_view(of_some, number, std::nullopt));
+      if (of_some.guilty) ++parts.alarms;
     }
     for (const auto& [kind, damage] : damages()) {
       for (std::size_t k = 0; k < std::min(views_a_kind, views.size()); ++k) {
@@ -264,6 +286,7 @@ void run(const std::vector<std::string>& scenes, std::size_t views_a_kind, std::
         ++comparisons;
         count(by_kind[kind], found, v);
         count(all, found, v);
+        tops.push_back(top_view(found, number, v));
       }
     }
     std::cerr << set.name << " done\n";
@@ -274,6 +297,13 @@ void run(const std::vector<std::string>& scenes, std::size_t views_a_kind, std::
   print("all", all);
   std::cout << fmt::format("clean sets: {} alarms in {}; halves of them: {} in {}\n", clean.alarms, clean.sets,
                            parts.alarms, parts.sets);
+  const UnseenRates unseen = leave_one_out(tops, scenes.size());
+  std::cout << fmt::format(
+      "thresholds chosen without the set that they judge (score {:.1f} to {:.1f}, lead {:.1f} to {:.1f}): {} of {} "
+      "named, {} "
+      "wrong; {} alarms in {} clean ones\n",
+      unseen.least_score, unseen.most_score, unseen.least_lead, unseen.most_lead, unseen.right, unseen.damaged,
+      unseen.wrong, unseen.alarms, unseen.clean);
   std::cout << fmt::format("{:.4f} processor seconds a comparison\n",
                            comparing / static_cast<double>(std::max<std::size_t>(comparisons, 1)));
 }

@@ -66,4 +66,5 @@ files=(*.deb *.whl *.tar.gz NOTES.md)
 sha256sum "${files[@]}" >SHA256SUMS
 sha256sum --quiet -c SHA256SUMS
 ls -l
+echo "scripts/try_packages.sh release/$version tries them in a bare Debian 12 (as root)"
 echo "release/$version is made of $(git -C "$root" rev-parse --short HEAD); tag it: git tag -a v$version -F release/$version/NOTES.md"

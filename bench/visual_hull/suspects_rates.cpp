@@ -301,9 +301,9 @@ void run(const std::vector<std::string>& scenes, std::size_t views_a_kind, std::
   std::cout << fmt::format(
       "thresholds chosen without the set that they judge (score {:.1f} to {:.1f}, lead {:.1f} to {:.1f}): {} of {} "
       "named, {} "
-      "wrong; {} alarms in {} clean ones\n",
+      "wrong; {} alarms in {} clean ones; all sets together choose {:.1f} and {:.1f}\n",
       unseen.least_score, unseen.most_score, unseen.least_lead, unseen.most_lead, unseen.right, unseen.damaged,
-      unseen.wrong, unseen.alarms, unseen.clean);
+      unseen.wrong, unseen.alarms, unseen.clean, unseen.score, unseen.lead);
   std::cout << fmt::format("{:.4f} processor seconds a comparison\n",
                            comparing / static_cast<double>(std::max<std::size_t>(comparisons, 1)));
 }

@@ -46,6 +46,9 @@ Thresholds chosen(const std::vector<TopView>& views, std::size_t left_out) {
 
 UnseenRates leave_one_out(const std::vector<TopView>& views, std::size_t sets) {
   UnseenRates rates;
+  const Thresholds of_all = chosen(views, sets);
+  rates.score = of_all.score;
+  rates.lead = of_all.lead;
   for (std::size_t set = 0; set < sets; ++set) {
     const Thresholds thresholds = chosen(views, set);
     rates.least_score = set == 0 ? thresholds.score : std::min(rates.least_score, thresholds.score);

@@ -25,6 +25,7 @@ struct UnseenRates {
   std::size_t clean = 0, alarms = 0;              ///< the same without
   double least_score = 0, most_score = 0;         ///< thresholds that were chosen, over all sets that were left out
   double least_lead = 0, most_lead = 0;
+  double score = 0, lead = 0;  ///< those that all sets together choose
 };
 
 /// For each set, thresholds of score and lead are chosen from a grid by all other sets: those with the most right

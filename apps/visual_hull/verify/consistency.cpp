@@ -28,7 +28,7 @@ constexpr std::size_t kMostRays = 300;     // of a view; more change nothing
 constexpr std::size_t kRaysInAll = 10000;  // where there are many views, each has fewer
 constexpr std::size_t kFewestRays = 100;
 constexpr double kGuiltyScore = 1.5;
-constexpr double kGuiltyLead = 0.4;
+constexpr double kGuiltyLead = 0.7;
 constexpr double kFewestLines =
     4;  // of sight, that a guilty view blinds: up to three are what pixels do to clean views
 constexpr std::size_t kFewViews = 5;

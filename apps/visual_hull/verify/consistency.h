@@ -40,7 +40,7 @@ struct Consistency {
 /// Compares views by up to 300 lines of sight a view, spread evenly over its silhouette, each cut by all other
 /// silhouettes in their images. The residual accuses the innocent (a mask that lost a part leaves residuals in all
 /// *other* views); D and d do not: see docs/how/visual_hull.md. A view is guilty if its score exceeds 1.5 and the
-/// second one by 0.4, and D comes from four lines of sight or more; with up to five views the score is that of D alone.
+/// second one by 0.7, and D comes from four lines of sight or more; with up to five views the score is that of D alone.
 /// Views that the frame cuts are compared, and neither accused nor among those that the score has to exceed. `box`
 /// bounds the part of space that is looked at (grown to thrice its size). O(views^2 (rays + vertices of a silhouette)).
 Consistency compare_views(const std::vector<ComparedView>& views, const WorldBox& box, const nef::Monitor& monitor);

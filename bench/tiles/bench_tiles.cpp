@@ -6,6 +6,7 @@
 // nef_bench_tiles chain [LEVEL [STEPS]] [--limit N] [--size D] [--every]: many boxes one after the other, plain, in
 // tiles, and in tiles where that pays; with --every the ratio at each step.
 // nef_bench_tiles fold [LEVEL [COUNT]] [--limit N] [--size D]: such boxes off a sphere, all at once and in tiles.
+// nef_bench_tiles openings [COUNT]: square openings off a slab, all at once, one after the other, and so in tiles.
 // nef_bench_tiles union [COUNT] [--size D] [--limit N] [--threads N] [--memory MB]: random tetrahedra, each of which
 // meets a few others; pairs smallest first, unite_all, and region by region. With --stream the latter alone, each piece
 // made when it is needed; with --no-tiles all but that, and with --only unite_all alone, both once. CPU seconds of one
@@ -226,6 +227,42 @@ void chain(int level, int steps, double size, bool every, const Tiling& tiling) 
 }
 
 // All at once: the sphere minus the union of the boxes, with tiles and without.
+void openings(int count, const Tiling& tiling) {
+  constexpr int kInRow = 47;
+  const Polyhedron slab = make_box({0, 0, 0}, {10 * kInRow, 10 * ((count + kInRow - 1) / kInRow), 10});
+  std::vector<Polyhedron> boxes;
+  for (int i = 0; i < count; ++i) {
+    const int x = 10 * (i % kInRow);
+    const int y = 10 * (i / kInRow);
+    boxes.push_back(make_box({x + 3, y + 3, -1}, {x + 7, y + 7, 11}));
+  }
+  Polyhedron at_once;
+  const double together = seconds_of([&] { at_once = subtract(slab, unite_all(boxes)); });
+  Polyhedron one_by_one = slab;
+  const double plain = seconds_of([&] {
+    for (const Polyhedron& box : boxes) one_by_one = subtract(one_by_one, box);
+  });
+  Polyhedron glued;
+  const double tiled = seconds_of([&] {
+    TiledPolyhedron in_tiles(slab, tiling);
+    for (const Polyhedron& box : boxes) in_tiles = subtract(in_tiles, box);
+    glued = in_tiles.polyhedron();
+  });
+  Polyhedron chosen;
+  const double where_it_pays = seconds_of([&] {
+    StepSequence steps(slab, boxes.size(), TileUse::kWherePays, tiling);
+    for (const Polyhedron& box : boxes) steps.apply(BooleanOperator::kDifference, box);
+    chosen = steps.result();
+  });
+  const bool same = equal(one_by_one, at_once) && equal(glued, at_once) && equal(chosen, at_once);
+  std::printf(
+      "%d openings: at once %.3f s; one by one %.3f s (x %.2f); in tiles %.3f s (x %.2f); in tiles where that pays "
+      "%.3f "
+      "s (x %.2f); %s\n",
+      count, together, plain, plain / together, tiled, tiled / together, where_it_pays, where_it_pays / together,
+      same ? "the same" : "DIFFERENT");
+}
+
 void fold(int level, int count, double size, const Tiling& tiling) {
   CubesOffSphere source(level);
   const Polyhedron sphere = from_mesh(source.sphere());
@@ -350,7 +387,7 @@ int main(int argc, char** argv) {
   if (words.empty()) {
     std::fprintf(stderr,
                  "usage: nef_bench_tiles cubes [LEVEL...] | cut [LEVEL [TURNS]] | chain [LEVEL [STEPS]] | fold [LEVEL "
-                 "[COUNT]] | union "
+                 "[COUNT]] | openings [COUNT] | union "
                  "[COUNT], [--size D] [--every] "
                  "[--limit N] [--threads N] [--memory MB] [--stream | --no-tiles | --only]\n");
     return 2;
@@ -393,6 +430,8 @@ int main(int argc, char** argv) {
     } else if (words[0] == "union") {
       nef::bench::unite_tetrahedra(numbers.empty() ? 10000U : static_cast<std::uint32_t>(numbers[0]), union_bench,
                                    tiling);
+    } else if (words[0] == "openings") {
+      nef::bench::openings(numbers.empty() ? 1175 : numbers[0], tiling);
     } else if (words[0] == "fold") {
       nef::bench::fold(numbers.empty() ? 6 : numbers[0], numbers.size() < 2 ? 1000 : numbers[1], size, tiling);
     } else {

@@ -4,6 +4,19 @@
 #include <cmath>
 
 namespace nef {
+namespace {
+
+// What rays from points of the box toward smaller values of the plane's first axis meet. Along a ray the third
+// coordinate follows the plane.
+Box with_rays(Box box, const PlaneAxes& axes) {
+  const auto third = static_cast<std::size_t>(3 - axes.first - axes.second);
+  box.low[static_cast<std::size_t>(axes.first)] = -HUGE_VAL;
+  box.low[third] = -HUGE_VAL;
+  box.high[third] = HUGE_VAL;
+  return box;
+}
+
+}  // namespace
 
 void FacetLocator::expect(std::span<const FacetId> facets) {
   for (const FacetId facet : facets) {
@@ -11,16 +24,21 @@ void FacetLocator::expect(std::span<const FacetId> facets) {
   }
 }
 
-const BoxTree& FacetLocator::tree(FacetId facet) const {
+const FacetLocator::LazyTree& FacetLocator::tree(FacetId facet) const {
   LazyTree& entry = trees_.at(facet);
   std::call_once(entry.once, [&] {
+    const Box asked = with_rays(other_.bounds(), PlaneAxes(tables_.planes, operand_.facet_plane(facet)));
     std::vector<Box> boxes;
     for (const SHalfedgeId corner : corners_of(facet)) {
-      boxes.push_back(operand_.edge_box(operand_.complex().corner_halfedge(corner)));
+      const HalfedgeId halfedge = operand_.complex().corner_halfedge(corner);
+      const Box box = operand_.edge_box(halfedge);
+      if (!box.overlaps(asked)) continue;
+      boxes.push_back(box);
+      entry.halfedges.push_back(halfedge);
     }
     entry.tree = BoxTree(boxes);
   });
-  return entry.tree;
+  return entry;
 }
 
 ItemRef FacetLocator::locate(FacetId facet, PointId point, const Monitor& monitor) const {
@@ -28,13 +46,9 @@ ItemRef FacetLocator::locate(FacetId facet, PointId point, const Monitor& monito
   const PointTable& points = tables_.points;
   const PlaneId plane = operand_.facet_plane(facet);
   const PlaneAxes axes(planes, plane);
-  Box ray;
-  ray.add_rounded(points.approximate(point));
-  ray.low[static_cast<std::size_t>(axes.first)] = -HUGE_VAL;
-  // Along the ray the third coordinate follows the plane.
-  const auto third = static_cast<std::size_t>(3 - axes.first - axes.second);
-  ray.low[third] = -HUGE_VAL;
-  ray.high[third] = HUGE_VAL;
+  Box at;
+  at.add_rounded(points.approximate(point));
+  const Box ray = with_rays(at, axes);
   ItemRef found;
   bool inside = false;
   for_each_edge(facet, ray, [&](HalfedgeId halfedge) {

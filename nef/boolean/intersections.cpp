@@ -24,7 +24,7 @@ class IntersectionFinder {
       : operands_(operands),
         tables_(tables),
         monitor_(monitor),
-        locators_{FacetLocator{operands[0], tables}, FacetLocator{operands[1], tables}} {
+        locators_{FacetLocator{operands[0], operands[1], tables}, FacetLocator{operands[1], operands[0], tables}} {
     for (std::size_t x = 0; x < 2; ++x) result_.vertex_item[x].resize(operands[x].complex().vertex_count());
   }
 

@@ -351,6 +351,7 @@ int volume_sign(const Mesh& mesh, const MeshSurface& surface) {
   if (surface.points.moderate() && std::abs(sum) > size * (0x1p-44 + 0x1p-52 * n) + 1e-150 * n) {
     return sum > 0 ? 1 : -1;
   }
+  if (!surface.points.are_numbers()) throw OpenQuestion();
   Rational exact = 0;
   for (const auto& t : surface.triangles) {
     exact += dot(mesh.vertices[t[0]], cross(mesh.vertices[t[1]], mesh.vertices[t[2]]));
@@ -404,7 +405,8 @@ std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshCheckOptions& op
 }
 
 std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface, const MeshCheckOptions& options,
-                                    const Monitor& monitor, std::optional<std::vector<FaceContact>>* contacts) {
+                                    const Monitor& monitor, std::optional<std::vector<FaceContact>>* contacts,
+                                    OpenPairs* open) {
   std::optional<std::vector<FaceContact>> own;
   std::optional<std::vector<FaceContact>>& found = contacts == nullptr ? own : *contacts;
   if (kFastPaths && bounds_small_convex_solid(mesh, surface, monitor)) {
@@ -421,7 +423,7 @@ std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface
   }
   const bool decided = options.only_verdict && !report.is_legal();
   if (options.self_intersections && !decided) {
-    if (!found) found = face_contacts(surface, meeting);
+    if (!found) found = face_contacts(surface, meeting, open);
     check_contacts(surface, *found, report);
   }
   check_planarity(mesh, surface, report);

@@ -74,10 +74,11 @@ struct MeshCheckOptions {
 std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshCheckOptions& options = {},
                                     const Monitor& monitor = {});
 /// The same for a mesh whose surface is there already. `contacts`, if given, are all contacts of its faces
-/// (face_contacts) if it holds something, and receives them if it does not and they were looked for.
+/// (face_contacts) if it holds something, and receives them if it does not and they were looked for. `open`: see
+/// SurfaceContacts::for_each.
 std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface, const MeshCheckOptions& options,
-                                    const Monitor& monitor,
-                                    std::optional<std::vector<FaceContact>>* contacts = nullptr);
+                                    const Monitor& monitor, std::optional<std::vector<FaceContact>>* contacts = nullptr,
+                                    std::vector<std::array<std::uint32_t, 2>>* open = nullptr);
 
 /// How far the corners of a face are from the plane through their centroid whose normal is the area vector of the
 /// face: the largest distance. Zero iff the face is planar and not degenerate, or has no area vector.

@@ -44,6 +44,7 @@ std::int64_t reduced_denominator(const PointTable& points, PointId point, std::s
 // b - a in homogeneous integers, scaled by the positive product of their denominators where these differ: the axes
 // from `first` on, as many as there is room for (of two, the second may be the first axis).
 void MeshPoints::difference(std::uint32_t a, std::uint32_t b, std::span<Integer> out, std::size_t first) const {
+  require_numbers();
   if (Homogeneous from{}, to{};
       kFastPaths && source().small_coordinates(place(a), from) && source().small_coordinates(place(b), to)) {
     for (std::size_t k = 0; k < out.size(); ++k) assign(out[k], short_difference(from, to, (first + k) % 3));
@@ -113,6 +114,16 @@ MeshPoints::MeshPoints(PointTable points) : table_(std::move(points)) {
   for (std::size_t i = 0; i < table_.size(); ++i) own_.push_back(table_.approximate(PointId{i}));
   approximate_ = own_;
   find_margins({});
+}
+
+// Half a unit in the last place is 2^-53 relative or 2^-1075, so the margins that follow from PointTable's doubles do.
+MeshPoints MeshPoints::near(std::vector<std::array<double, 3>> doubles) {
+  MeshPoints points;
+  points.own_ = std::move(doubles);
+  points.approximate_ = points.own_;
+  points.only_doubles_ = true;
+  points.find_margins({});
+  return points;
 }
 
 MeshPoints::MeshPoints(const PointTable& table, std::span<const PointId> places,
@@ -361,6 +372,7 @@ int MeshPoints::orientation_along_exact(std::uint32_t a, std::uint32_t b, std::u
     const std::array<std::int64_t, 3> r = integers(c);
     return sign_of(static_cast<Int128>(q[i] - p[i]) * (r[j] - p[j]) - static_cast<Int128>(r[i] - p[i]) * (q[j] - p[j]));
   }
+  require_numbers();
   if (Homogeneous p{}, q{}, r{}; kFastPaths && source().small_coordinates(place(a), p) &&
                                  source().small_coordinates(place(b), q) && source().small_coordinates(place(c), r)) {
     return compare_products(short_difference(p, q, i), short_difference(p, r, j), short_difference(p, r, i),
@@ -377,6 +389,11 @@ int MeshPoints::orientation_along_exact(std::uint32_t a, std::uint32_t b, std::u
 }
 
 bool MeshPoints::collinear(std::uint32_t a, std::uint32_t b, std::uint32_t c, const Monitor& monitor) const {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (component(a, b, c, axis).sign().value_or(0) == 0) continue;
+    monitor.count_filter();
+    return false;
+  }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (orientation_along(a, b, c, axis, monitor) != 0) return false;
   }
@@ -405,7 +422,7 @@ std::size_t MeshPoints::projection_axis(std::uint32_t a, std::uint32_t b, std::u
 
 int MeshPoints::compare(std::uint32_t a, std::uint32_t b, std::size_t axis) const {
   const double gap = approximate_[a][axis] - approximate_[b][axis];
-  if (are_integers_) return (gap > 0) - (gap < 0);
+  if (are_ordered_by_doubles()) return (gap > 0) - (gap < 0);
   // The margins are far above the rounding of this difference.
   if (filter_ && std::abs(gap) > 4 * margin_[axis]) return gap > 0 ? 1 : -1;
   return compare_exact(a, b, axis);

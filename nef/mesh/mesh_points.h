@@ -18,6 +18,10 @@
 
 namespace nef {
 
+/// What points near doubles (MeshPoints::near) throw where a question has not the same answer for all of them, as far
+/// as is known.
+class OpenQuestion {};
+
 /// An immutable set of finite points that answers questions about their positions. All answers are exact.
 class MeshPoints {
  public:
@@ -30,6 +34,11 @@ class MeshPoints {
   /// O(1) each. The table, `places` and `doubles` must outlive these points and not change.
   MeshPoints(const PointTable& table, std::span<const PointId> places, std::span<const std::array<double, 3>> doubles,
              std::span<const std::uint32_t> asked);
+
+  /// Any finite points near doubles: each coordinate within half a unit in the last place of its double, and in the
+  /// order of the doubles along each axis, equal ones where these are equal. An answer holds for all such points; where
+  /// doubles leave it open, OpenQuestion is thrown.
+  static MeshPoints near(std::vector<std::array<double, 3>> doubles);
 
   MeshPoints(MeshPoints&&) = default;
   MeshPoints& operator=(MeshPoints&&) = default;
@@ -92,6 +101,11 @@ class MeshPoints {
   [[nodiscard]] std::span<const std::array<double, 3>> approximate() const { return approximate_; }
   [[nodiscard]] double margin(std::size_t axis) const { return margin_[axis]; }
 
+  /// True if points are equal exactly where these are.
+  [[nodiscard]] bool are_ordered_by_doubles() const { return are_integers_ || only_doubles_; }
+  /// False for any points near doubles.
+  [[nodiscard]] bool are_numbers() const { return !only_doubles_; }
+
   /// True if these are below 1e75, so that sums of products of four do not overflow, and fast paths are on.
   [[nodiscard]] bool moderate() const { return filter_; }
 
@@ -108,6 +122,10 @@ class MeshPoints {
   void find_margins(std::span<const std::uint32_t> asked);
   [[nodiscard]] const PointTable& source() const { return other_table_ != nullptr ? *other_table_ : table_; }
   [[nodiscard]] PointId place(std::uint32_t p) const { return other_table_ != nullptr ? places_[p] : PointId{p}; }
+  MeshPoints() = default;
+  void require_numbers() const {
+    if (only_doubles_) throw OpenQuestion();
+  }
   void difference(std::uint32_t a, std::uint32_t b, std::span<Integer> out, std::size_t first = 0) const;
   [[nodiscard]] int orientation_exact(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) const;
   // Of (b - a) x (c - a), in the scaled space. Nothing if the points are not moderate.
@@ -118,6 +136,7 @@ class MeshPoints {
   std::vector<std::array<double, 3>> own_;  // empty where the doubles are another's
   std::span<const std::array<double, 3>> approximate_;
   bool are_integers_ = false;  // what approximate_ holds
+  bool only_doubles_ = false;  // no other numbers are known
   std::int64_t denominator_ = 1;
   PointTable table_;                         // filled only where these are not, and no other table is
   const PointTable* other_table_ = nullptr;  // and the points there

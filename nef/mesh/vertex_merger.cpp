@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/mesh/vertex_merger.h"
 
+#include <bit>
+
 namespace nef {
 namespace {
 
@@ -90,7 +92,8 @@ std::vector<std::uint32_t> merge_equal(std::span<const Rational3> points) {
 std::vector<std::uint32_t> merge_equal(std::span<const std::array<double, 3>> points) {
   const auto hash = [points](std::uint32_t i) {
     std::uint64_t result = 0;
-    for (const double x : points[i]) result = mix(result, static_cast<std::uint64_t>(static_cast<std::int64_t>(x)));
+    // The bits in which short numbers differ go where a product spreads them from. -0 equals 0.
+    for (const double x : points[i]) result = mix(result, std::rotl(std::bit_cast<std::uint64_t>(x + 0.0), 24));
     return result;
   };
   return first_equal(points.size(), hash,

@@ -32,7 +32,7 @@ class VertexMerger {
 
 /// For each point the smallest index of a point with the same coordinates. Expected O(n).
 std::vector<std::uint32_t> merge_equal(std::span<const Rational3> points);
-/// The same for points with integers for coordinates, in doubles.
+/// The same for points whose coordinates are doubles.
 std::vector<std::uint32_t> merge_equal(std::span<const std::array<double, 3>> points);
 
 }  // namespace nef

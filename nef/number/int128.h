@@ -7,6 +7,7 @@
 #include <bit>
 #include <compare>
 #include <cstdint>
+#include <utility>
 
 #include "nef/number/number.h"
 
@@ -39,26 +40,34 @@ inline int bit_width(Unsigned128 value) {
 }
 
 /// The greatest common divisor; 0 of two zeros. By Stein's algorithm: O(bits), and each step without a branch, of which
-/// std::gcd has one that nobody could foresee.
+/// std::gcd has one that nobody could foresee. What a step waits for is short: the difference has as many zeros at its
+/// end as its opposite, and its sign is that of a number below 2^63.
 inline std::uint64_t greatest_common_divisor(std::uint64_t a, std::uint64_t b) {
   if (a == 0 || b == 0) return a | b;
   const int twos = std::countr_zero(a | b);
   a >>= static_cast<unsigned>(std::countr_zero(a));
   b >>= static_cast<unsigned>(std::countr_zero(b));
+  while (a != b && (a | b) >> 63U != 0) {
+    if (a < b) std::swap(a, b);
+    a -= b;
+    a >>= static_cast<unsigned>(std::countr_zero(a));
+  }
   while (a != b) {
     const std::uint64_t difference = a - b;
-    const std::uint64_t mask = a < b ? ~std::uint64_t{0} : 0;  // turns the difference around
-    b += difference & mask;                                    // the smaller one
-    a = (difference ^ mask) - mask;
-    a >>= static_cast<unsigned>(std::countr_zero(a));
+    const auto mask = static_cast<std::uint64_t>(static_cast<std::int64_t>(difference) >> 63);  // turns it around
+    b += difference & mask;                                                                     // the smaller one
+    a = ((difference ^ mask) - mask) >> static_cast<unsigned>(std::countr_zero(difference));
   }
   return a << static_cast<unsigned>(twos);
 }
 
+/// Of a positive number. std::has_single_bit counts all bits, by a call on machines of the oldest kind.
+inline bool is_power_of_two(std::int64_t value) { return (value & (value - 1)) == 0; }
+
 /// The greatest common divisor of a positive number and any other one; at once if the first is a power of two, as
 /// denominators of doubles are.
 inline std::int64_t common_divisor(std::int64_t denominator, std::int64_t value) {
-  if (!std::has_single_bit(static_cast<std::uint64_t>(denominator))) {
+  if (!is_power_of_two(denominator)) {
     const auto size = value < 0 ? -static_cast<std::uint64_t>(value) : static_cast<std::uint64_t>(value);
     return static_cast<std::int64_t>(greatest_common_divisor(static_cast<std::uint64_t>(denominator), size));
   }
@@ -69,7 +78,7 @@ inline std::int64_t common_divisor(std::int64_t denominator, std::int64_t value)
 
 /// The same for a longer number.
 inline std::int64_t common_divisor(std::int64_t denominator, Int128 value) {
-  if (std::has_single_bit(static_cast<std::uint64_t>(denominator))) {
+  if (is_power_of_two(denominator)) {
     return common_divisor(denominator, static_cast<std::int64_t>(static_cast<Unsigned128>(value) &
                                                                  static_cast<Unsigned128>(denominator - 1)));
   }

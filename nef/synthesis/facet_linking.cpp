@@ -30,7 +30,8 @@ struct CycleRecord {
   std::uint32_t first = 0;  // range in the traced corners
   std::uint32_t count = 0;
   bool outer = false;
-  VertexId lowest;  // lexicographically
+  bool is_known = false;  // whether it is an outer one
+  VertexId lowest;        // lexicographically; not valid until somebody needs it
 };
 
 bool few(const Complex& c) { return c.shalfedge_count() < 1U << 15U; }  // one share does
@@ -169,6 +170,8 @@ class FacetLinker {
         cycle.row = row;
         cycle.first = static_cast<std::uint32_t>(traced_.size());
         cycle.count = known_->cycle_begin[i.next()] - known_->cycle_begin[i];
+        cycle.outer = i == facet.first_cycle;
+        cycle.is_known = true;
         const auto corners = known_->corners.begin() + known_->cycle_begin[i];
         traced_.insert(traced_.end(), corners, corners + cycle.count);
         all.push_back(static_cast<std::uint32_t>(cycles_.size()));
@@ -230,7 +233,8 @@ class FacetLinker {
       facet_of[i] = static_cast<std::uint32_t>(members.size());
       members.push_back({cycles[i]});
     }
-    detail::require(!members.empty(), "a facet has an outer cycle", {{"vertex", cycles_[cycles[0]].lowest}});
+    detail::require(!members.empty(), "a facet has an outer cycle",
+                    {{"vertex", c_.shalfedge_vertex(traced_[cycles_[cycles[0]].first])}});
     std::vector<std::vector<VertexId>> inside(members.size());
     if (members.size() == 1) {
       for (std::uint32_t i = 0; i < cycles.size(); ++i) {
@@ -238,6 +242,9 @@ class FacetLinker {
       }
       for (const auto& point : points) inside[0].push_back(point.second);
     } else if (cycles.size() > members.size() || !points.empty()) {
+      for (const std::uint32_t i : cycles) {
+        if (!cycles_[i].outer) find_lowest(cycles_[i], axes);
+      }
       nest(row, cycles, points, facet_of);
       for (std::uint32_t i = 0; i < cycles.size(); ++i) {
         if (!cycles_[cycles[i]].outer) members[facet_of[i]].push_back(cycles[i]);
@@ -247,17 +254,26 @@ class FacetLinker {
     for (std::size_t k = 0; k < members.size(); ++k) emit(row, members[k], inside[k]);
   }
 
-  void classify(CycleRecord& cycle, const PlaneAxes& axes) const {
-    const std::span<const SHalfedgeId> corners(traced_.data() + cycle.first, cycle.count);
-    for (const SHalfedgeId corner : corners) {
+  [[nodiscard]] std::span<const SHalfedgeId> corners_of(const CycleRecord& cycle) const {
+    return std::span(traced_).subspan(cycle.first, cycle.count);
+  }
+
+  void find_lowest(CycleRecord& cycle, const PlaneAxes& axes) const {
+    if (cycle.lowest.valid()) return;
+    for (const SHalfedgeId corner : corners_of(cycle)) {
       const VertexId v = c_.shalfedge_vertex(corner);
       if (v == cycle.lowest) continue;
       if (!cycle.lowest.valid() || axes.compare(c_.points, point_of(v), point_of(cycle.lowest), monitor_) < 0) {
         cycle.lowest = v;
       }
     }
+  }
+
+  void classify(CycleRecord& cycle, const PlaneAxes& axes) const {
+    if (cycle.is_known) return;
+    find_lowest(cycle, axes);
     cycle.outer = true;
-    for (const SHalfedgeId corner : corners) {
+    for (const SHalfedgeId corner : corners_of(cycle)) {
       if (c_.shalfedge_vertex(corner) != cycle.lowest) continue;
       const HalfedgeId ahead = c_.corner_halfedge(corner);
       const HalfedgeId back = c_.corner_back_halfedge(corner);

@@ -12,10 +12,12 @@
 #include <map>
 #include <random>
 #include <set>
+#include <span>
 #include <unordered_map>
 #include <variant>
 
 #include "nef/base/error.h"
+#include "nef/base/fast_path.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/export/nearest_float.h"
 #include "nef/geometry/vectors.h"
@@ -26,6 +28,7 @@
 #include "nef/mesh/mesh_check.h"
 #include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/surface/nested_components.h"
+#include "nef/mesh/surface/surface_contacts.h"
 #include "nef/polyhedron.h"
 
 namespace nef {
@@ -41,6 +44,49 @@ struct Finding {
   std::set<std::uint32_t> guilty;         // faces of problems, without those of the next
   std::vector<std::uint32_t> degenerate;  // faces without area
 };
+
+// True if some pairs of triangles have nothing in common but vertices and edges in a reading of their corners. A mesh
+// of these triangles alone is searched, so any contact counts: the faces that could make one harmless are not there.
+bool are_apart(const MeshSurface& surface, const OpenPairs& pairs, std::span<const Double3> doubles,
+               const std::function<Rational(double)>& reading, const Monitor& monitor) {
+  std::set<std::uint32_t> triangles;
+  for (const auto& pair : pairs) triangles.insert(pair.begin(), pair.end());
+  Mesh few;
+  std::unordered_map<std::uint32_t, std::uint32_t> vertices;
+  for (const std::uint32_t t : triangles) {
+    VertexTriple corners = surface.triangles[t];
+    for (std::uint32_t& v : corners) {
+      const auto [known, is_new] = vertices.emplace(v, static_cast<std::uint32_t>(few.vertices.size()));
+      if (is_new) few.vertices.push_back({reading(doubles[v][0]), reading(doubles[v][1]), reading(doubles[v][2])});
+      v = known->second;
+    }
+    few.push_face(corners);
+  }
+  const MeshSurface read(few, monitor);
+  const auto is_sound = [](FaceDefect defect) { return defect == FaceDefect::kNone; };
+  return std::all_of(read.defects.begin(), read.defects.end(), is_sound) &&
+         face_contacts(read, SurfaceContacts(read, monitor)).empty();
+}
+
+// True if it is shown that the mesh is strictly legal, and its components fit together, with its vertices anywhere near
+// doubles as in MeshPoints::near: then it is so in every reading. Pairs of triangles of which doubles cannot tell are
+// looked at in each reading.
+bool surely_legal_near(const Mesh& mesh, std::span<const Double3> doubles, const Rounding& rounding,
+                       const Monitor& monitor) {
+  if (!kFastPaths) return false;
+  try {
+    const MeshSurface surface(mesh, MeshPoints::near({doubles.begin(), doubles.end()}), monitor);
+    const MeshCheckOptions first{.max_per_kind = 1, .only_verdict = true};
+    OpenPairs open;
+    const std::vector<MeshProblem> problems = check_mesh(mesh, surface, first, monitor, nullptr, &open);
+    return std::all_of(problems.begin(), problems.end(), is_strictly_legal) && surely_one_solid(surface, monitor) &&
+           (open.empty() || std::all_of(rounding.readings.begin(), rounding.readings.end(), [&](const auto& reading) {
+              return are_apart(surface, open, doubles, reading, monitor);
+            }));
+  } catch (const OpenQuestion&) {
+    return false;
+  }
+}
 
 // Whether a mesh is strictly legal (is_strictly_legal) and its components fit together.
 Finding examine(const Mesh& mesh, const Monitor& monitor) {
@@ -73,17 +119,17 @@ class Mender {
 
   std::string problem() {
     round();
-    return examine_exact_faces().text;
+    return surely_legal_near(exact_, points_, rounding_, monitor_) ? "" : examine_exact_faces().text;
   }
 
   MendedMesh run() {
     round();
     nearest_ = points_;
     MendedMesh result;
-    Finding found = examine_exact_faces();
+    Finding found = surely_legal_near(exact_, points_, rounding_, monitor_) ? Finding() : examine_exact_faces();
     if (found.legal) {
       result.mesh = with_faces_of(exact_, exact_rational);
-      return measured(std::move(result));
+      return result;
     }
     cut_into_triangles();
     const std::size_t before = triangles_.size();
@@ -338,6 +384,12 @@ Rational shortest_decimal(double x) {
   return value;
 }
 
+// Everybody reads an integer below 2^53 as it is: another number with no more digits is a whole unit away, or it is no
+// integer and needs more.
+bool is_short_integer(const Rational& x) {
+  return mpz_cmp_ui(x.get_den_mpz_t(), 1) == 0 && mpz_sizeinbase(x.get_num_mpz_t(), 2) <= 53;
+}
+
 }  // namespace
 
 Rounding rounding_to(FileNumbers numbers) {
@@ -368,6 +420,7 @@ bool is_kept(const Rational3& point, const Rounding& rounding, Readers readers) 
   const auto end = readers == Readers::kAll ? rounding.readings.end() : rounding.readings.begin() + 1;
   return std::all_of(point.begin(), point.end(), [&](const Rational& x) {
     const double rounded = rounding.nearest(x);
+    if (is_short_integer(x) && rounded == mpz_get_d(x.get_num_mpz_t())) return true;
     return std::isfinite(rounded) &&
            std::all_of(rounding.readings.begin(), end, [&](const auto& reading) { return reading(rounded) == x; });
   });

@@ -20,7 +20,7 @@ struct Rounding {
   /// The number of the format next to one of them, up or down.
   std::function<double(double, bool up)> next;
   /// What readers make of such a number, this library first; there may be several opinions (0.1 is a tenth, or a double
-  /// near it).
+  /// near it), each within half a unit in the last place of the double, and greater ones of greater doubles.
   std::vector<std::function<Rational(double)>> readings;
 };
 
@@ -34,7 +34,7 @@ struct MendedMesh {
   std::string problem;      ///< the first problem if it is not legal
   std::size_t moved = 0;    ///< vertices that are not at the nearest numbers, so that it is legal
   std::size_t dropped = 0;  ///< slivers that are gone
-  double largest_move = 0;  ///< of a vertex from its exact place, along an axis
+  double largest_move = 0;  ///< of a vertex from its exact place, along an axis; 0 if none was moved or dropped
   /// Of each face: the face of the exact mesh that it comes from; empty if the faces are that mesh's.
   std::vector<std::uint32_t> face_of;
 };

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "nef/mesh/polygon/triangulate.h"
 #include "nef/mesh/vertex_merger.h"
@@ -106,8 +107,11 @@ Triangulator::Cut cut_bent(const MeshPoints& points, Triangulator& triangulator,
 }  // namespace
 
 MeshSurface::MeshSurface(const Mesh& mesh, const Monitor& monitor)
-    : points(mesh.vertices),
-      place(points.are_integers() ? merge_equal(points.approximate()) : merge_equal(mesh.vertices)),
+    : MeshSurface(mesh, MeshPoints(mesh.vertices), monitor) {}
+
+MeshSurface::MeshSurface(const Mesh& mesh, MeshPoints at, const Monitor& monitor)
+    : points(std::move(at)),
+      place(points.are_ordered_by_doubles() ? merge_equal(points.approximate()) : merge_equal(mesh.vertices)),
       defects(mesh.face_count(), FaceDefect::kNone) {
   Triangulator triangulator(points, monitor);
   std::vector<std::uint32_t> ring;

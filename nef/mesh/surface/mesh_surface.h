@@ -22,6 +22,8 @@ enum class FaceDefect : std::uint8_t { kNone, kBadIndex, kTooFewCorners, kNoArea
 /// outer ring by a bridge does; sides that are walked out and back at once do not count.
 struct MeshSurface {
   MeshSurface(const Mesh& mesh, const Monitor& monitor);
+  /// The same with the vertices at `at`: those of the mesh are only counted.
+  MeshSurface(const Mesh& mesh, MeshPoints at, const Monitor& monitor);
 
   MeshPoints points;                                    ///< of all vertices of the mesh
   std::vector<std::uint32_t> place;                     ///< of each vertex: the smallest vertex at the same point

@@ -482,15 +482,22 @@ SurfaceContacts::Kind SurfaceContacts::classify_neighbours(std::uint32_t t, std:
   return around.interleaved && !around.separates ? Kind::kCross : Kind::kTouch;
 }
 
-void SurfaceContacts::for_each(const std::function<bool(Kind, std::uint32_t, std::uint32_t)>& visit) const {
+void SurfaceContacts::for_each(const std::function<bool(Kind, std::uint32_t, std::uint32_t)>& visit,
+                               OpenPairs* open) const {
   struct Contact {
     std::uint32_t t = 0, u = 0;
     Kind kind = Kind::kNone;
   };
   std::vector<Contact> contacts;
+  const std::size_t most_open = triangles_.size() / 32 + 32;
   patches_.for_each_candidate([&](std::uint32_t t, std::uint32_t u) {
-    const Kind kind = classify(t, u);
-    if (kind != Kind::kNone) contacts.push_back({t, u, kind});
+    try {
+      const Kind kind = classify(t, u);
+      if (kind != Kind::kNone) contacts.push_back({t, u, kind});
+    } catch (const OpenQuestion&) {
+      if (open == nullptr || open->size() == most_open) throw;
+      open->push_back({t, u});
+    }
   });
   std::sort(contacts.begin(), contacts.end(),
             [](const Contact& a, const Contact& b) { return a.t != b.t ? a.t < b.t : a.u < b.u; });
@@ -499,14 +506,15 @@ void SurfaceContacts::for_each(const std::function<bool(Kind, std::uint32_t, std
   }
 }
 
-std::vector<FaceContact> face_contacts(const MeshSurface& surface, const SurfaceContacts& contacts) {
+std::vector<FaceContact> face_contacts(const MeshSurface& surface, const SurfaceContacts& contacts, OpenPairs* open) {
   // Triangles of one face meet others' many times.
   std::vector<FaceContact> found;
-  contacts.for_each([&](SurfaceContacts::Kind kind, std::uint32_t t, std::uint32_t u) {
+  const auto add = [&](SurfaceContacts::Kind kind, std::uint32_t t, std::uint32_t u) {
     const auto [f, g] = std::minmax(surface.face_of[t], surface.face_of[u]);
     found.push_back({f, g, kind, kind == SurfaceContacts::Kind::kCover});
     return true;
-  });
+  };
+  contacts.for_each(add, open);
   std::sort(found.begin(), found.end(), [](const FaceContact& a, const FaceContact& b) {
     return std::tie(a.f, a.g, b.kind) < std::tie(b.f, b.g, a.kind);
   });

@@ -16,6 +16,9 @@
 
 namespace nef {
 
+/// Pairs of triangles of a surface.
+using OpenPairs = std::vector<std::array<std::uint32_t, 2>>;
+
 /// Finds where a triangulated surface crosses, overlaps or touches itself.
 ///
 /// Two triangles cross if their relative interiors meet in a segment. If these meet in an area, they overlap (turned
@@ -37,8 +40,9 @@ class SurfaceContacts {
   [[nodiscard]] const VertexStars& stars() const { return patches_.stars(); }
 
   /// Calls visit(kind, t, u) for every pair t < u with a contact, in lexicographic order; kind is not kNone.
-  /// Stops when visit returns false.
-  void for_each(const std::function<bool(Kind, std::uint32_t, std::uint32_t)>& visit) const;
+  /// Stops when visit returns false. Of points near doubles (MeshPoints::near): pairs that they leave open go to `open`
+  /// if it is given, up to one for every 32 triangles.
+  void for_each(const std::function<bool(Kind, std::uint32_t, std::uint32_t)>& visit, OpenPairs* open = nullptr) const;
 
   /// Calls visit(u, v, triangles) for every edge of more than two triangles which use it equally often in both
   /// directions but do not separate inside from outside around it.
@@ -104,8 +108,9 @@ struct FaceContact {
 /// Those of a surface, if they have been looked for.
 using KnownContacts = std::optional<std::vector<FaceContact>>;
 
-/// All contacts of a surface, each pair of faces once, in lexicographic order.
-std::vector<FaceContact> face_contacts(const MeshSurface& surface, const SurfaceContacts& contacts);
+/// All contacts of a surface, each pair of faces once, in lexicographic order. `open`: see SurfaceContacts::for_each.
+std::vector<FaceContact> face_contacts(const MeshSurface& surface, const SurfaceContacts& contacts,
+                                       OpenPairs* open = nullptr);
 
 /// How many of them are crossings or overlaps.
 std::size_t count_crossings(std::span<const FaceContact> contacts);

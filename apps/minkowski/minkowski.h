@@ -91,7 +91,7 @@ Polyhedron minkowski_sum(const Polyhedron& a, const Polyhedron& b, const Minkows
 std::vector<ConvexCell> decompose(const Polyhedron& a, const Monitor& monitor = {});
 
 /// True if the set is convex (marks included: a closed box without one point of an edge is not).
-/// O(n) for sets with one volume; bounded sets only, others throw UnsupportedError.
+/// O(n log n) for open and closed sets, O(n^2) for others; bounded sets only, others throw UnsupportedError.
 bool is_convex(const Polyhedron& a, const Monitor& monitor = {});
 
 /// The set of the points -x, x in a.

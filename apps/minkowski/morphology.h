@@ -48,6 +48,12 @@ struct BallApproximation {
 /// InputError unless radius > 0 and 1 <= splits <= 64.
 BallApproximation ball_approximation(const Rational& radius, int splits, Side side, const Monitor& monitor = {});
 
+/// Which of the two balls makes an offset by `radius` lie on a side of the exact one: eroding by more leaves less, so
+/// the inner side of an erosion takes the outer ball.
+constexpr Side ball_side(int sign_of_radius, Side side) {
+  return (sign_of_radius > 0) == (side == Side::kInner) ? Side::kInner : Side::kOuter;
+}
+
 /// The inner one as a set: ball(r, n) of expressions. Throws InputError unless `splits` is a whole number from 1 to 64.
 Polyhedron inner_ball(const Rational& radius, const Rational& splits, const Monitor& monitor = {});
 

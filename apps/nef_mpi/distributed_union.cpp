@@ -113,26 +113,37 @@ RegionalUnion MeasuredPieces::regions() const {
   return {std::move(boxes), pieces_of_a_region(operands.size())};
 }
 
+std::vector<TileRef> regions_of_ranks(const Environment& mpi, const WorkFolder& work, std::size_t count,
+                                      const std::function<TileRef(std::size_t region)>& compute, const Tiling& tiling,
+                                      const Watcher& watcher) {
+  do_tasks(mpi,
+           {.name = "regions",
+            .count = count,
+            .finished = [&](std::size_t region) { return work.has(region_name(region) + "/index"); },
+            .name_of_task = [](std::size_t region) { return "region " + std::to_string(region + 1); },
+            .task =
+                [&](std::size_t region) {
+                  write_tiles(work / region_name(region), {compute(region), tiling});
+                  return std::string();
+                }},
+           watcher);
+  if (!mpi.first()) return {};
+  std::vector<TileRef> trees(count);
+  parallel_for(count, watcher.monitor, [&](std::size_t region, const Monitor& own) {
+    trees[region] = read_tiles(work / region_name(region), tiling.store, own).tree();
+  });
+  return trees;
+}
+
 TiledPolyhedron union_by_regions(const Environment& mpi, const WorkFolder& work, const MeasuredPieces& pieces,
                                  const RegionalUnion& regions, const Tiling& tiling, const Watcher& watcher) {
   const auto unite_region = [&](std::size_t region) {
     std::vector<Polyhedron> sets;
     for (const std::uint32_t piece : regions.pieces_of(region)) sets.push_back(pieces.source.set(piece, {}));
-    write_tiles(work / region_name(region), {regions.unite_in(region, std::move(sets), tiling, {}), tiling});
-    return std::string();
+    return regions.unite_in(region, std::move(sets), tiling, {});
   };
-  do_tasks(mpi,
-           {.name = "regions",
-            .count = regions.region_count(),
-            .finished = [&](std::size_t region) { return work.has(region_name(region) + "/index"); },
-            .name_of_task = [](std::size_t region) { return "region " + std::to_string(region + 1); },
-            .task = unite_region},
-           watcher);
+  const std::vector<TileRef> trees = regions_of_ranks(mpi, work, regions.region_count(), unite_region, tiling, watcher);
   if (!mpi.first()) return {};
-  std::vector<TileRef> trees(regions.region_count());
-  parallel_for(trees.size(), watcher.monitor, [&](std::size_t region, const Monitor& own) {
-    trees[region] = read_tiles(work / region_name(region), tiling.store, own).tree();
-  });
   return {regions.tree(trees), tiling};
 }
 

@@ -56,6 +56,13 @@ struct MeasuredPieces {
 MeasuredPieces measure_pieces(const Environment& mpi, const WorkFolder& work, const PieceSource& pieces,
                               const Watcher& watcher);
 
+/// Collective. What `compute` makes of each region, each a task on one rank, its result in the work folder. On rank 0
+/// they come back, in tiles that `tiling.store` reads when they are needed, or that are all in memory if there is none;
+/// elsewhere nothing does.
+std::vector<TileRef> regions_of_ranks(const Environment& mpi, const WorkFolder& work, std::size_t count,
+                                      const std::function<TileRef(std::size_t region)>& compute, const Tiling& tiling,
+                                      const Watcher& watcher);
+
 /// Collective. The union of all pieces region by region, each task on one rank, its result in the work folder. On rank
 /// 0 the set comes back, in tiles that `tiling.store` reads when they are needed, or that are all in memory if there is
 /// none; elsewhere it is empty.

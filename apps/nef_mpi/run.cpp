@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "apps/minkowski/command/ball_words.h"
+#include "apps/minkowski/in_tiles.h"
 #include "apps/nef_mpi/distributed_sum.h"
 #include "apps/nef_mpi/distributed_union.h"
 #include "apps/nef_mpi/piece_list.h"
@@ -93,13 +95,21 @@ class Run {
 
   void add_sum(CLI::App& app) {
     CLI::App* command =
-        app.add_subcommand("minkowski", "The Minkowski sum of two sets; the first is summed part by part");
-    command->add_option("inputs", session_.inputs, "Files of the two sets")->required()->expected(2);
-    command->add_option("--part", part_, "Vertices of the first set per part")
+        app.add_subcommand("minkowski", "The Minkowski sum of two sets, the first summed part by part, or an offset");
+    command->add_option("inputs", session_.inputs, "Files of the two sets; with --offset of one")
+        ->required()
+        ->expected(1, 2);
+    command
+        ->add_option("--offset", offset_,
+                     "R or R,N: grow the set by a ball of radius R, or shrink it if R < 0, region by region, as "
+                     "minkowski --offset does")
+        ->type_name("R[,N]");
+    command->add_flag("--inner", inner_, "With --offset: the result lies inside that of a round ball, not around it");
+    command->add_option("--part", part_, "Vertices of the first set per part, without --offset")
         ->check(CLI::Range(std::size_t{8}, std::size_t{1} << 30U))
         ->capture_default_str();
     add_output(command);
-    command->callback([this] { job_ = [this] { return sum(); }; });
+    command->callback([this] { job_ = [this] { return offset_.empty() ? sum() : offset(); }; });
   }
 
   void add_frames(CLI::App& app) {
@@ -191,6 +201,8 @@ class Run {
     const WorkFolder work(session_.output);
     std::vector<Polyhedron> sets;
     on_first([&] {
+      if (session_.inputs.size() != 2) throw InputError("give two sets, or one and --offset");
+      if (inner_) throw InputError("--inner goes with --offset");
       sets = session_.load_all(session_.inputs);
       if (!sets[0].is_bounded()) {
         throw InputError(session_.inputs[0] +
@@ -206,6 +218,40 @@ class Run {
     const TiledPolyhedron set = united(work, sums_of_parts(mpi_, work, sets[0], sets[1], part_, watcher()));
     on_first([&] { require_same(sum_job()); });
     return finish("minkowski", work, set, watch.seconds());
+  }
+
+  // Each rank reads the set; in a folder of tiles, those that its regions need.
+  int offset() {
+    const WorkFolder work(session_.output);
+    std::optional<minkowski::RegionalSum> regions;
+    const auto prepare = [&] {
+      const auto [radius, splits] = minkowski::parse_ball(offset_, "--offset", 8);
+      if (sgn(radius) == 0) throw InputError("--offset 0 leaves the set as it is: give another radius");
+      const minkowski::Side side = inner_ ? minkowski::Side::kInner : minkowski::Side::kOuter;
+      const TiledPolyhedron set = load_tiled(session_, session_.inputs[0], tiling());
+      regions.emplace(set, radius, splits, side, session_.monitor);
+    };
+    on_first([&] {
+      if (session_.inputs.size() != 1) throw InputError("--offset takes one set");
+      job_text_ = offset_job();
+      prepare();
+      work.prepare(job_text_);
+    });
+    if (!regions) {
+      session_.quiet = true;  // rank 0 has said what there is to say
+      prepare();
+    }
+    const Stopwatch watch;
+    minkowski::MinkowskiReport report;
+    const std::vector<TileRef> trees = regions_of_ranks(
+        mpi_, work, regions->region_count(), [&](std::size_t region) { return regions->compute(region, {}, report); },
+        tiling(), watcher());
+    on_first([&] { require_same(offset_job()); });
+    return finish("minkowski", work, mpi_.first() ? regions->whole(trees) : TiledPolyhedron(), watch.seconds());
+  }
+
+  [[nodiscard]] std::string offset_job() const {
+    return job("offset " + offset_ + (inner_ ? " inner" : "")) + file_identity(session_.inputs[0]);
   }
 
   int finish(const std::string& command, const WorkFolder& work, const TiledPolyhedron& set, double seconds) {
@@ -249,6 +295,8 @@ class Run {
   TileFlags flags_;
   std::string list_;
   std::size_t part_ = 500;
+  std::string offset_;
+  bool inner_ = false;
   std::string times_;
   std::string times_text_;
   nef::visual_hull::Arguments hull_{session_};

@@ -147,10 +147,9 @@ void finish_tiled(Session& session, const std::string& command, const TiledPolyh
   const Stopwatch watch;
   write_tiles(session.output, set);
   const double write_seconds = watch.seconds();
-  if (!session.json) {
-    return session.say(counted(set.tile_count(), "tile, ", "tiles, ") +
-                       counted(set.vertex_count(), "vertex in them", "vertices in them"));
-  }
+  session.say(counted(set.tile_count(), "tile, ", "tiles, ") +
+              counted(set.vertex_count(), "vertex in them", "vertices in them"));
+  if (!session.json && session.report.empty()) return;
   Json found = more;
   found["result"] = {{"tiles", set.tile_count()}, {"vertices_in_tiles", set.vertex_count()}};
   if (set.tiling().store) {

@@ -158,6 +158,7 @@ class Parts(Bench):
             "offset of a scan of 20,000": (None, lambda: [scan(101), "--ball", "10,2"]),
             "offset of a scan of 80,000": (None, lambda: [scan(201), "--ball", "10,2"]),
             "offset of a scan of 300,000": (60, lambda: [scan(388), "--ball", "10,2"]),
+            "the same by regions": (None, lambda: [scan(388), "--ball", "10,2", "--memory", "200M"]),
         }
 
 

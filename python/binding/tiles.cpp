@@ -21,14 +21,6 @@
 namespace nef::python {
 namespace {
 
-// A set in tiles, and how many threads operations on it use.
-struct Tiles : TiledPolyhedron {
-  Tiles(TiledPolyhedron set, unsigned threads_of_operations)
-      : TiledPolyhedron(std::move(set)), threads(threads_of_operations) {}
-
-  unsigned threads;
-};
-
 // work(monitor) for a set and what is combined with it, without Python's lock.
 template <typename Work>
 auto call_with(const Tiles& a, std::size_t others, const Work& work) {

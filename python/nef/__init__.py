@@ -33,12 +33,12 @@ from .errors import Error, InputError, InputWarning, MissingFileError, Unsupport
 from .meshes import from_mesh, repair
 from .notebook import show
 from .results import (ApproximateMoments, Counts, Distance, Location, Measured, MeshWithOrigins, Millable, Moments, Penetration,
-                      Polygon, RayHit, Reach, Repair, Section)
+                      Polygon, RayHit, Reach, Repair, Section, SimplifiedOffset)
 from . import meshes as _meshes, notebook as _notebook
 
 __all__ = [
     "ApproximateMoments", "Counts", "Distance", "Error", "InputError", "InputWarning", "Location", "Measured", "MeshWithOrigins", "Millable", "MissingFileError", "Moments", "Penetration", "Polygon", "Polyhedron",
-    "RayHit", "Reach", "Repair", "Section", "TiledPolyhedron", "UnsupportedError", "box", "cylinder", "empty", "eval", "everything", "from_bytes", "from_mesh", "halfspace", "hull",
+    "RayHit", "Reach", "Repair", "Section", "SimplifiedOffset", "TiledPolyhedron", "UnsupportedError", "box", "cylinder", "empty", "eval", "everything", "from_bytes", "from_mesh", "halfspace", "hull",
     "intersect_all", "mesh_with_origins", "overlay", "point", "polygon", "progress", "read", "read_tiles", "repair", "segment", "show", "sphere",
     "tiles_from_mesh", "unite_all", "unite_in_tiles",
 ]

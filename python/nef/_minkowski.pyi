@@ -1,25 +1,31 @@
 # SPDX-License-Identifier: Apache-2.0
 from fractions import Fraction
-from typing import Callable, Dict, Iterable, List, Optional, Tuple
+from typing import Callable, Dict, Iterable, List, Optional, Tuple, TypeVar
 
-from ._nef import Number, Points, Polyhedron, Triple
-from .results import Millable, Penetration, Reach
+from ._nef import Number, Points, Polyhedron, TiledPolyhedron, Triple
+from .results import Millable, Penetration, Reach, SimplifiedOffset
 
-def sum(a: Polyhedron, b: Polyhedron, threads: int = ...,
+_Set = TypeVar("_Set", Polyhedron, TiledPolyhedron)
+
+def sum(a: _Set, b: Polyhedron, threads: int = ...,
         progress: Optional[Callable[[str, int, int], object]] = ..., union: str = ...,
-        report: Optional[Dict[str, object]] = ...) -> Polyhedron: ...
-def erode(a: Polyhedron, b: Polyhedron, threads: int = ...,
+        report: Optional[Dict[str, object]] = ...) -> _Set: ...
+def erode(a: _Set, b: Polyhedron, threads: int = ...,
           progress: Optional[Callable[[str, int, int], object]] = ..., union: str = ...,
-        report: Optional[Dict[str, object]] = ...) -> Polyhedron: ...
-def opening(a: Polyhedron, b: Polyhedron, threads: int = ...,
+        report: Optional[Dict[str, object]] = ...) -> _Set: ...
+def opening(a: _Set, b: Polyhedron, threads: int = ...,
             progress: Optional[Callable[[str, int, int], object]] = ..., union: str = ...,
-        report: Optional[Dict[str, object]] = ...) -> Polyhedron: ...
-def closing(a: Polyhedron, b: Polyhedron, threads: int = ...,
+        report: Optional[Dict[str, object]] = ...) -> _Set: ...
+def closing(a: _Set, b: Polyhedron, threads: int = ...,
             progress: Optional[Callable[[str, int, int], object]] = ..., union: str = ...,
-        report: Optional[Dict[str, object]] = ...) -> Polyhedron: ...
-def offset(a: Polyhedron, radius: Number, detail: int = ..., side: str = ..., threads: int = ...,
+        report: Optional[Dict[str, object]] = ...) -> _Set: ...
+def offset(a: _Set, radius: Number, detail: int = ..., side: str = ..., threads: int = ...,
            progress: Optional[Callable[[str, int, int], object]] = ..., union: str = ...,
-        report: Optional[Dict[str, object]] = ...) -> Polyhedron: ...
+        report: Optional[Dict[str, object]] = ...) -> _Set: ...
+def simplified_offset(a: Polyhedron, radius: Number, triangles: Optional[int] = ..., digits: Optional[int] = ...,
+                      detail: int = ..., side: str = ..., threads: int = ...,
+                      progress: Optional[Callable[[str, int, int], object]] = ..., union: str = ...,
+        report: Optional[Dict[str, object]] = ...) -> SimplifiedOffset: ...
 def ball(radius: Number, detail: int = ..., side: str = ...) -> Polyhedron: ...
 def ball_error(radius: Number, detail: int = ..., side: str = ...) -> Fraction: ...
 def sweep(a: Polyhedron, path: Points, threads: int = ...,

@@ -54,6 +54,8 @@ def _fits(value: Any, kind: str) -> bool:
     """Whether a value may be of a type; True for types that are not known here."""
     if kind.startswith("Optional["):
         return value is None or _fits(value, kind[9:-1])
+    if kind.startswith("Union["):
+        return any(_fits(value, one) for one in _parts(kind[6:-1]))
     if kind.startswith("List["):
         return isinstance(value, (list, tuple)) and all(_fits(item, kind[5:-1]) for item in value)
     if kind == "int":
@@ -77,6 +79,8 @@ def _named(kind: str) -> str:
     """A type in words."""
     if kind.startswith("Optional["):
         return _named(kind[9:-1]) + " or None"
+    if kind.startswith("Union["):
+        return " or ".join(_named(one) for one in _parts(kind[6:-1]))
     if kind.startswith("List["):
         return "a list, each item " + _named(kind[5:-1])
     return _WORDS.get(kind.partition("[")[0], "a " + re.sub(r"\._\w+", "", kind))

@@ -10,9 +10,9 @@ penetration depths, no-fit sets, the reach of tools, and what milling tools leav
 """
 from . import _of_application
 from ._minkowski import (ball, ball_error, closing, component, configuration_space, decompose, erode, hull, is_convex, millable,
-                         negate, no_fit, offset, opening, penetration, reach, sum, sweep)
+                         negate, no_fit, offset, opening, penetration, reach, simplified_offset, sum, sweep)
 
 __all__ = ["ball", "ball_error", "closing", "component", "configuration_space", "decompose", "erode", "hull", "is_convex",
-           "millable", "negate", "no_fit", "offset", "opening", "penetration", "reach", "sum", "sweep"]
+           "millable", "negate", "no_fit", "offset", "opening", "penetration", "reach", "simplified_offset", "sum", "sweep"]
 
 __getattr__ = _of_application(__name__, __all__, {"minkowski_sum": "sum", "add": "sum", "dilate": "sum", "open": "opening", "close": "closing", "convex_hull": "hull", "intersects": "penetration"})

@@ -123,6 +123,15 @@ class Reach(NamedTuple):
     untouched: object
 
 
+class SimplifiedOffset(NamedTuple):
+    """An offset of fewer triangles or digits."""
+
+    #: a Polyhedron
+    set: object
+    #: how far it may be from the offset by the radius, a Fraction: it is inside or around one whose radius differs by that
+    error: object
+
+
 class Millable(NamedTuple):
     """What a milling tool leaves of the material around a part."""
 

@@ -83,6 +83,34 @@ def test_sweep_hull_and_components(needs):
     assert minkowski.hull(~CUBE).is_everything()
 
 
+def test_sums_in_tiles(needs):
+    minkowski = needs("minkowski")
+    frame = nef.box((0, 0, 0), (8, 8, 8)) - nef.box((2, 2, -1), (5, 5, 9)).interior()
+    tiled = nef.TiledPolyhedron(frame, limit=32)
+    report = {}
+    total = minkowski.sum(tiled, CUBE, report=report, threads=2)
+    assert isinstance(total, nef.TiledPolyhedron) and total.polyhedron() == minkowski.sum(frame, CUBE)
+    assert "regions" in report["strategies"][0]["why"]
+    for function in (minkowski.erode, minkowski.opening, minkowski.closing):
+        assert function(tiled, CUBE).polyhedron() == function(frame, CUBE)
+    assert minkowski.offset(tiled, -1, 2).polyhedron() == minkowski.offset(frame, -1, 2)
+    with pytest.raises(nef.UnsupportedError):
+        minkowski.sum(nef.TiledPolyhedron(~frame), CUBE)
+    with pytest.raises(TypeError, match="a must be a nef.Polyhedron or a nef.TiledPolyhedron"):
+        minkowski.sum(1, CUBE)
+
+
+def test_simplified_offset(needs):
+    minkowski = needs("minkowski")
+    ball = nef.sphere(1, 200)
+    found = minkowski.simplified_offset(ball, 1 / 4, triangles=100, digits=3, detail=2)
+    exact = minkowski.offset(ball, 1 / 4, 2)
+    assert exact <= found.set and found.set <= minkowski.offset(ball, 1 / 4 + found.error, 2)
+    assert all((x * 1000).denominator == 1 for point in found.set.to_mesh(exact=True)[0] for x in point)
+    with pytest.raises(nef.InputError, match="number of triangles"):
+        minkowski.simplified_offset(ball, 1)
+
+
 def test_penetration(needs):
     minkowski = needs("minkowski")
     inside = minkowski.penetration(nef.box((0, 0, 0), (4, 4, 4)), CUBE.translate((1, 1, Fraction(14, 5))))

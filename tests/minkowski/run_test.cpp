@@ -98,6 +98,50 @@ TEST_CASE("command: folders of tiles are operands and results, as of nef") {
   CHECK_THAT(refused.err, Catch::Contains("--recenter applies to mesh files"));
 }
 
+TEST_CASE("command: with --memory sums are made region by region, and are the same") {
+  const Place place;
+  place.write("a.nef", "(box(0,0,0,8,8,8) - interior(box(2,2,-1,5,5,9))) + box(6,6,7,7,7,9)");
+  place.write("b.nef", "box(0,0,0,1,1,1)");
+  for (const std::string& task :
+       std::vector<std::string>{"a.nef b.nef", "a.nef b.nef --erode", "a.nef b.nef --open", "a.nef b.nef --close",
+                                "a.nef --offset 1/4,2", "a.nef --open-a --offset=-1/4,2 --inner"}) {
+    CAPTURE(task);
+    REQUIRE(place.run(task + " -o whole.nef").code == 0);
+    const Outcome outcome = place.run(task + " --memory 1M -o by_regions.nef --report report.json");
+    CHECK(outcome.err.empty());
+    REQUIRE(outcome.code == 0);
+    CHECK(nef::equal(nef::read_polyhedron(place / "by_regions.nef"), nef::read_polyhedron(place / "whole.nef")));
+    const json report = json::parse(place.read("report.json"));
+    CHECK_THAT(report["strategies"][0]["why"].get<std::string>(), Catch::Contains(" regions"));
+    CHECK(report["phases"]["op_s"].get<double>() > 0);
+    REQUIRE(place.run(task + " --memory 1M -o by_regions.tiles --report report.json").code == 0);
+    CHECK(json::parse(place.read("report.json"))["result"]["tiles"].get<int>() > 0);
+    CHECK(
+        nef::equal(nef::read_file_or_tiles(place / "by_regions.tiles", {}), nef::read_polyhedron(place / "whole.nef")));
+  }
+  CHECK_THAT(place.run("a.nef --hull --memory 1G -o c.nef").err, Catch::Contains("--memory goes with sums"));
+  CHECK_THAT(place.run("a.nef b.nef --memory lots -o c.nef").err, Catch::Contains("--memory takes a size"));
+  CHECK_THAT(place.run("a.nef b.nef --memory 1G -o c.nef --preview p").err, Catch::Contains("exclude each other"));
+}
+
+TEST_CASE("command: an offset is simplified, and its report says within which bounds") {
+  const Place place;
+  place.write("a.nef", kL);
+  const Outcome outcome = place.run("a.nef --offset 1/4,4 --decimate 120 --digits 3 -o b.off --report report.json");
+  CHECK(outcome.err.empty());
+  REQUIRE(outcome.code == 0);
+  const json report = json::parse(place.read("report.json"));
+  const nef::Rational error(report["offset"]["error"].get<std::string>());
+  CHECK(error > 0);
+  CHECK(error < nef::Rational(1, 4));
+  const nef::Mesh mesh = nef::read_mesh(place / "b.off");
+  CHECK(mesh.face_count() <= 120);
+  REQUIRE(place.run("a.nef --offset 1/4,4 -o c.nef").code == 0);
+  CHECK(nef::subtract(nef::read_polyhedron(place / "c.nef"), nef::read_polyhedron(place / "b.off")).is_empty());
+  CHECK_THAT(place.run("a.nef a.nef --digits 3 -o d.nef").err, Catch::Contains("go with --offset"));
+  CHECK_THAT(place.run("a.nef --offset 1 --digits 3 --memory 1G -o d.nef").err, Catch::Contains("exclude each other"));
+}
+
 TEST_CASE("command: many notes are a few lines, and all of them in the report") {
   const Place place;
   // Eighty square pyramids apart from each other, with a corner of each base lifted, so that the base is bent.

@@ -351,6 +351,26 @@ TEST_CASE("sums part by part are sums") {
   CHECK(here.run("nef", "equal plain.nef sum.nef").code == 0);
 }
 
+TEST_CASE("offsets on ranks are those of minkowski, whatever their number") {
+  const Place here;
+  REQUIRE(here.run("nef", "eval 'regularize(sphere(3, 140) - box(0,0,0, 9,9,9))' -o a.nef").code == 0);
+  for (const std::string offset : {"--offset 1/8,1", "--offset=-1/8,1 --inner"}) {
+    CAPTURE(offset);
+    REQUIRE(here.run("minkowski", "a.nef " + offset + " -o plain.nef").code == 0);
+    for (const int ranks : {1, 3}) {
+      const Outcome run = here.ranks(ranks, "minkowski a.nef " + offset + " -o sum.nef --times times.csv");
+      CAPTURE(run.err, ranks);
+      REQUIRE(run.code == 0);
+      CHECK(here.run("nef", "equal plain.nef sum.nef").code == 0);
+      const std::string times = here.read("times.csv");
+      CHECK(std::count(times.begin(), times.end(), '\n') > 2);
+    }
+  }
+  CHECK_THAT(here.ranks(2, "minkowski a.nef -o sum.nef").err, Contains("give two sets"));
+  CHECK_THAT(here.ranks(2, "minkowski a.nef a.nef --offset 1 -o sum.nef").err, Contains("takes one set"));
+  CHECK_THAT(here.ranks(2, "minkowski a.nef --offset 0 -o sum.nef").err, Contains("--offset 0"));
+}
+
 TEST_CASE("frames on ranks are those of visual_hull, and its manifest") {
   const Place here;
   const std::string elk = source_folder() + "/data/visual_hull/elk";

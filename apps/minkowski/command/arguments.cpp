@@ -5,6 +5,7 @@
 #include "apps/minkowski/command/arguments.h"
 
 #include <algorithm>
+#include <array>
 
 #include "apps/program/common_options.h"
 #include "nef/base/error.h"
@@ -52,6 +53,16 @@ void declare_tasks(CLI::App& app, Arguments& a) {
       ->type_name("R[,N]");
   app.add_flag("--inner", a.inner, "With --offset, --ball: the result lies inside that of a round ball");
   app.add_flag("--outer", a.outer, "With --offset, --ball: the result contains that of a round ball");
+  app.add_option(
+         "--decimate", a.decimate,
+         "With --offset: a result of about N triangles, which still contains the exact answer, or lies inside it "
+         "(--inner); how far from it at most is reported")
+      ->type_name("N")
+      ->check(CLI::Range(std::size_t{4}, std::size_t{1} << 40U));
+  app.add_option("--digits", a.digits,
+                 "With --offset: a result whose coordinates have at most N decimals, within bounds as with --decimate")
+      ->type_name("N")
+      ->check(CLI::Range(0, 300));
   app.add_option("--sweep", a.sweep,
                  "Points x,y,z: the region that A sweeps as it moves along the polyline through them")
       ->expected(-1)
@@ -127,11 +138,26 @@ void check_output(const Arguments& a, Task task) {
   if (task != Task::kReach && task != Task::kMillable && !a.labels.empty()) {
     throw InputError("--labels goes with --reach and --millable");
   }
+  if (task != Task::kOffset && (a.decimate != 0 || a.digits)) {
+    throw InputError("--decimate and --digits go with --offset (nef decimate simplifies any solid)");
+  }
   if (task != Task::kMillable && a.axes != 0) throw InputError("--axes goes with --millable");
   if (a.inner && a.outer) throw InputError("--inner and --outer exclude each other: give one of them");
   if ((a.inner || a.outer) && task != Task::kOffset && a.ball.empty()) {
     throw InputError("--inner and --outer go with --offset or --ball");
   }
+}
+
+void check_tiles(const Arguments& a, Task task) {
+  if (a.memory.empty()) return;
+  if (a.decimate != 0 || a.digits) {
+    throw InputError("--memory and --decimate or --digits exclude each other: what simplifies needs the whole set");
+  }
+  constexpr std::array<Task, 5> kTiled{Task::kSum, Task::kErode, Task::kOpen, Task::kClose, Task::kOffset};
+  if (std::find(kTiled.begin(), kTiled.end(), task) == kTiled.end()) {
+    throw InputError("--memory goes with sums, --erode, --open, --close and --offset, not with --" + name(task));
+  }
+  if (!a.preview.empty()) throw InputError("--memory and --preview exclude each other: a picture needs the whole set");
 }
 
 void check_operands(const Arguments& a, Task task) {
@@ -187,6 +213,11 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_option("--union", a.union_name,
                  "Algorithm of sums: auto (default), convolution (without cells), queue (of sums of cells)")
       ->check(CLI::IsMember(strategy_names()));
+  app.add_option(
+         "--memory", a.memory,
+         "Memory for tiles, such as 800M or 2G, with sums, --erode, --open, --close and --offset: A is cut into "
+         "tiles and summed region by region, tiles beyond it are kept in files beside the output")
+      ->type_name("SIZE");
   declare_tasks(app, a);
   add_input_flags(&app, a.session);
   add_file_output_options(app, a.session.exact, a.session.binary, a.session.text);
@@ -211,6 +242,7 @@ std::string name(Task task) {
 Task check(const Arguments& a) {
   const Task task = task_of(a);
   check_output(a, task);
+  check_tiles(a, task);
   check_operands(a, task);
   return task;
 }

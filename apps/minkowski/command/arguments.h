@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,12 +45,16 @@ struct Arguments {
   bool inner = false, outer = false;
   bool erode = false, open = false, close = false, hull = false, no_fit = false, penetration = false, reach = false;
   bool millable = false;
-  int axes = 0;        ///< of --millable; 0: not given
-  std::string offset;  ///< "R" or "R,N"
+  int axes = 0;               ///< of --millable; 0: not given
+  std::string offset;         ///< "R" or "R,N"
+  std::size_t decimate = 0;   ///< triangles of the offset; 0: not given
+  std::optional<int> digits;  ///< decimals of the offset
   std::vector<std::string> sweep;
   std::string from, touched, untouched, labels;
   bool decompose = false;
   std::string format;  ///< of the files in a directory of cells; empty: off
+
+  std::string memory;  ///< for tiles; empty: not given
 
   bool configuration_space = false;
   std::string robot;

@@ -11,14 +11,18 @@
 #include <sstream>
 
 #include "apps/minkowski/command/arguments.h"
+#include "apps/minkowski/command/ball_words.h"
 #include "apps/minkowski/command/preview.h"
 #include "apps/minkowski/command/signals_held.h"
 #include "apps/minkowski/command/write_cells.h"
+#include "apps/minkowski/in_tiles.h"
 #include "apps/minkowski/morphology.h"
+#include "apps/minkowski/simplified/simplified_offset.h"
 #include "apps/program/numbers.h"
 #include "apps/program/reports/report.h"
 #include "apps/program/run_program.h"
 #include "apps/program/set_info.h"
+#include "apps/program/tile_flags.h"
 #include "apps/program/version.h"
 #include "nef/base/counted.h"
 #include "nef/base/timing/stopwatch.h"
@@ -28,6 +32,7 @@
 #include "nef/number/brief_text.h"
 #include "nef/operation/label_inputs.h"
 #include "nef/polyhedron.h"
+#include "nef/tiles/storage/tile_folder.h"
 
 namespace nef::minkowski {
 namespace {
@@ -45,16 +50,21 @@ class Run {
       decompose_operand();
     } else if (task_ == Task::kPenetration) {
       tell_penetration();
+    } else if (!a_.memory.empty()) {
+      run_in_tiles();
     } else {
-      const Polyhedron result = compute();
-      store(session_.output, result);
-      preview(result);
-      print_report([&] { return report(result); });
-      session_.say(summary(result));
+      finish(compute());
     }
   }
 
  private:
+  void finish(const Polyhedron& result) {
+    store(session_.output, result);
+    preview(result);
+    print_report([&] { return report(result); });
+    session_.say(summary(result));
+  }
+
   Polyhedron load(const std::string& path) { return session_.load(path); }
 
   // Writes a file by `write`, whose notes are shown.
@@ -82,9 +92,9 @@ class Run {
 
   // R,N as an approximation of a ball, with what is reported of it.
   Polyhedron ball_tool() {
-    const std::vector<Rational> numbers = parse_numbers(a_.ball, 2, "--ball R,N");
+    const BallWords words = parse_ball(a_.ball, "--ball", std::nullopt);
     const Side side = a_.outer ? Side::kOuter : Side::kInner;
-    const BallApproximation ball = ball_approximation(numbers[0], splits(numbers[1], "--ball"), side);
+    const BallApproximation ball = ball_approximation(words.radius, words.splits, side);
     details_["ball"] = {{"side", side == Side::kInner ? "inner" : "outer"},
                         {"error", to_string(ball.error)},
                         {"vertices", ball.cell.mesh.vertices.size()}};
@@ -98,13 +108,6 @@ class Run {
     line << what << ": " << (side == Side::kInner ? "inner" : "outer") << ", within " << nearest_double(error)
          << " of the round one";
     session_.say(line.str());
-  }
-
-  static int splits(const Rational& n, const std::string& option) {
-    if (n.get_den() != 1 || n < 1 || n > 64) {
-      throw InputError(option + " R,N: N must be a whole number from 1 to 64, not " + brief_text(n));
-    }
-    return static_cast<int>(n.get_num().get_si());
   }
 
   Polyhedron second_operand() {
@@ -153,36 +156,77 @@ class Run {
       for (const std::string& point : a_.sweep) path.push_back(parse_triple(point, "--sweep"));
       return sweep(a, path, options_, &report_);
     }
-    const bool fine = a_.offset.find(',') != std::string::npos;
-    const std::vector<Rational> numbers = parse_numbers(a_.offset, fine ? 2 : 1, "--offset R[,N]");
-    const int n = fine ? splits(numbers[1], "--offset") : 8;
+    return a_.decimate != 0 || a_.digits ? simplified_offset_of(a) : offset_of(a);
+  }
+
+  Polyhedron simplified_offset_of(const Polyhedron& a) {
+    const auto [radius, splits] = parse_ball(a_.offset, "--offset", 8);
     const Side side = a_.inner ? Side::kInner : Side::kOuter;
-    if (sgn(numbers[0]) != 0) {
-      const Side of_ball = (sgn(numbers[0]) > 0) == (side == Side::kInner) ? Side::kInner : Side::kOuter;
-      const Rational error = ball_approximation(abs(numbers[0]), n, of_ball).error;
-      details_["offset"] = {{"radius", to_string(numbers[0])},
-                            {"side", side == Side::kInner ? "inner" : "outer"},
-                            {"error", to_string(error)}};
-      tell_error("offset", side, error);
+    SimplifyOptions simplify{.triangles = std::nullopt, .digits = a_.digits};
+    if (a_.decimate != 0) simplify.triangles = a_.decimate;
+    SimplifiedOffset found = simplified_offset(a, radius, splits, side, simplify, options_, &report_);
+    session_.note_all(found.notes);
+    tell_offset(radius, side, found.error);
+    return std::move(found.set);
+  }
+
+  void tell_offset(const Rational& radius, Side side, const Rational& error) {
+    details_["offset"] = {
+        {"radius", to_string(radius)}, {"side", side == Side::kInner ? "inner" : "outer"}, {"error", to_string(error)}};
+    tell_error("offset", side, error);
+  }
+
+  // Of a set, in tiles or not.
+  template <typename Set>
+  Set offset_of(const Set& a) {
+    const auto [radius, splits] = parse_ball(a_.offset, "--offset", 8);
+    const Side side = a_.inner ? Side::kInner : Side::kOuter;
+    if (sgn(radius) != 0) {
+      tell_offset(radius, side, ball_approximation(abs(radius), splits, ball_side(sgn(radius), side)).error);
     }
-    return offset(a, numbers[0], n, side, options_, &report_);
+    return offset(a, radius, splits, side, options_, &report_);
   }
 
   std::pair<Polyhedron, Polyhedron> both_operands() {
     Polyhedron a = first_operand();
-    Polyhedron b = second_operand();
-    if (a_.hull_b) b = minkowski::hull(b);
-    if (a_.open_b) b = interior(b);
-    if (a_.negate_b) b = negate(b);
+    Polyhedron b = changed_second_operand();
     shown_.emplace_back("b", b);
     return {std::move(a), std::move(b)};
   }
 
+  Polyhedron changed_second_operand() {
+    Polyhedron b = second_operand();
+    if (a_.hull_b) b = minkowski::hull(b);
+    if (a_.open_b) b = interior(b);
+    if (a_.negate_b) b = negate(b);
+    return b;
+  }
+
   Polyhedron of_two() {
     const auto [a, b] = both_operands();
-    Polyhedron result = combined(a, b);
+    Polyhedron result = task_ == Task::kNoFit ? no_fit_set(a, b, options_, &report_) : combined(a, b);
     offer_hull(b);
     return result;
+  }
+
+  // A is cut into tiles, or is in tiles already, and so is the result.
+  void run_in_tiles() {
+    const std::string& path = a_.operands[0];
+    const Tiling tiling = choose_tiles({.memory = a_.memory}, session_, path).tiling;
+    TiledPolyhedron a = load_tiled(session_, path, tiling);
+    if (a_.open_a) a = interior(a, session_.monitor);
+    const TiledPolyhedron result = task_ == Task::kOffset ? offset_of(a) : combined(a, changed_second_operand());
+    const SignalsHeld held;
+    if (names_tile_folder(session_.output)) {
+      tell_phases();
+      finish_tiled(session_, name(task_), result, report_.seconds_total, base_report());
+      return;
+    }
+    session_.show_phase("gluing");
+    const Stopwatch watch;
+    const Polyhedron whole = result.polyhedron(session_.monitor);
+    session_.spent("glue", watch.seconds());
+    finish(whole);
   }
 
   void offer_hull(const Polyhedron& b) {
@@ -192,7 +236,9 @@ class Run {
                   " of its volume; --hull-b uses its convex hull, a superset");
   }
 
-  Polyhedron combined(const Polyhedron& a, const Polyhedron& b) {
+  // Of a set, in tiles or not, and B.
+  template <typename Set>
+  Set combined(const Set& a, const Polyhedron& b) {
     switch (task_) {
       case Task::kErode:
         return erode(a, b, options_, &report_);
@@ -200,8 +246,6 @@ class Run {
         return opening(a, b, options_, &report_);
       case Task::kClose:
         return closing(a, b, options_, &report_);
-      case Task::kNoFit:
-        return no_fit_set(a, b, options_, &report_);
       default:
         return minkowski_sum(a, b, options_, &report_);
     }
@@ -372,12 +416,16 @@ class Run {
     return object;
   }
 
-  // Makes the report if one is wanted.
-  void print_report(const std::function<Json()>& found) {
-    if (!session_.json && session_.report.empty()) return;
+  void tell_phases() {
     session_.spent("decomposition", report_.seconds_decomposition, report_.predicates_decomposition);
     session_.spent("convex_sums", report_.seconds_convex_sums, report_.predicates_convex_sums);
     session_.spent("union", report_.seconds_union, report_.predicates_union);
+  }
+
+  // Makes the report if one is wanted.
+  void print_report(const std::function<Json()>& found) {
+    if (!session_.json && session_.report.empty()) return;
+    tell_phases();
     session_.spent("op", report_.seconds_total);
     if (session_.output.empty()) session_.spent("write", 0);  // all reports of the program have it
     const SignalsHeld held;

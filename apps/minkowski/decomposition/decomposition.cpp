@@ -72,13 +72,14 @@ namespace {
 
 // Convex iff the relative interior of the hull belongs to the set (its closure does not exceed the
 // hull) and what belongs to each facet of the hull is convex: of two points not in a common facet,
-// all between them is inside.
+// all between them is inside. A closed set with the interior of the hull is the hull, and an open one is that interior:
+// their facets need not be looked at one by one, which takes O(n) each.
 bool is_convex_set(const Polyhedron& a, const Monitor& monitor) {
   const std::vector<Rational3> points = a.complex().points.rationals();
   if (points.empty()) return true;
   const ConvexCell hull = hull_cell(points, monitor);
   if (!subtract(to_polyhedron(opened(hull), monitor), a, monitor).is_empty()) return false;
-  if (hull.dimension < 2) return true;
+  if (hull.dimension < 2 || a.is_closed() || a.is_open()) return true;
   for (std::size_t f = 0; f < hull.mesh.face_count(); ++f) {
     const auto face = hull.mesh.face(f);
     const std::size_t sides = hull.dimension == 3 ? 1 : face.size();

@@ -1,43 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/minkowski/morphology.h"
 
-#include "apps/minkowski/decomposition/decomposition.h"
+#include "apps/minkowski/morphology/structuring_set.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
 
 namespace nef::minkowski {
-namespace {
-
-void require_tool(const Polyhedron& b) {
-  if (b.is_empty()) throw InputError("the structuring set B is empty, so it cannot open or close anything");
-}
-
-}  // namespace
-
 Polyhedron erode(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options, MinkowskiReport* report) {
   return complement(minkowski_sum(complement(a), negate(b, options.monitor), options, report));
 }
 
 Polyhedron opening(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options, MinkowskiReport* report) {
-  require_tool(b);
+  require_structuring_set(b);
   return minkowski_sum(erode(a, b, options, report), b, options, report);
 }
 
 Polyhedron closing(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options, MinkowskiReport* report) {
-  require_tool(b);
+  require_structuring_set(b);
   return erode(minkowski_sum(a, b, options, report), b, options, report);
 }
 
 Polyhedron offset(const Polyhedron& a, const Rational& radius, int splits, Side side, const MinkowskiOptions& options,
                   MinkowskiReport* report) {
   if (sgn(radius) == 0) return a;
-  // Eroding by more leaves less: the inner set of an erosion takes the outer ball.
-  const bool grows = sgn(radius) > 0;
-  const Side of_ball = grows == (side == Side::kInner) ? Side::kInner : Side::kOuter;
+  const Side of_ball = ball_side(sgn(radius), side);
   const Polyhedron ball =
       to_polyhedron(ball_approximation(abs(radius), splits, of_ball, options.monitor).cell, options.monitor);
-  return grows ? minkowski_sum(a, ball, options, report) : erode(a, ball, options, report);
+  return sgn(radius) > 0 ? minkowski_sum(a, ball, options, report) : erode(a, ball, options, report);
 }
 
 Polyhedron sweep(const Polyhedron& a, std::span<const Rational3> path, const MinkowskiOptions& options,

@@ -334,6 +334,14 @@ TileRef subdivided(const Polyhedron& set, const Tiling& tiling, const Monitor& m
   return tree.node->kind == TileNode::Kind::kTile ? tile_leaf(set, tiling.store) : tree;
 }
 
+TileRef tiles_in_region(const Polyhedron& set, const Region& region, const Tiling& tiling, const Monitor& monitor) {
+  const Polyhedron all = in_two_marks(set, monitor);
+  if (region.unbounded()) return subdivided(all, tiling, monitor);
+  if (all.is_empty() || all.is_everything()) return uniform_leaf(all.is_empty() ? 0 : 1);
+  Cutter cutter(all.complex().planes, tiling, monitor);
+  return cutter.subdivide(cutter.restricted(cutter.loose(all.complex()), region));
+}
+
 TileRef fully_cut(const TileRef& tree, const Tiling& tiling, const Monitor& monitor) {
   TileRef result = tree;
   if (tree.node->kind == TileNode::Kind::kTile && tree.node->uncut) {

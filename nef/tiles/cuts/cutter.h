@@ -66,6 +66,9 @@ class Cutter {
 /// threads of `monitor`. O(n log n).
 TileRef subdivided(const Polyhedron& set, const Tiling& tiling, const Monitor& monitor);
 
+/// What a set in all of space has in a region, as a tree of tiles like that of subdivided(). O(n log n).
+TileRef tiles_in_region(const Polyhedron& set, const Region& region, const Tiling& tiling, const Monitor& monitor);
+
 /// A tree with its uncut leaves cut as subdivided() does.
 TileRef fully_cut(const TileRef& tree, const Tiling& tiling, const Monitor& monitor);
 

@@ -40,12 +40,8 @@ RegionalUnion::RegionalUnion(std::vector<Box> boxes, std::size_t most)
 
 TileRef RegionalUnion::unite_in(std::size_t region, std::vector<Polyhedron>&& sets, const Tiling& tiling,
                                 const Monitor& monitor) const {
-  const Polyhedron all = in_two_marks(unite_all(std::exchange(sets, {}), monitor), monitor);
-  const Region& where = division_.parts()[region].region;
-  if (where.unbounded()) return subdivided(all, tiling, monitor);
-  if (all.is_empty() || all.is_everything()) return uniform_leaf(all.is_empty() ? 0 : 1);
-  Cutter cutter(all.complex().planes, tiling, monitor);
-  return cutter.subdivide(cutter.restricted(cutter.loose(all.complex()), where));
+  return tiles_in_region(unite_all(std::exchange(sets, {}), monitor), division_.parts()[region].region, tiling,
+                         monitor);
 }
 
 bool RegionalUnion::is_spread() const {

@@ -10,12 +10,16 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
+#include "apps/minkowski/in_tiles.h"
 #include "apps/minkowski/morphology.h"
+#include "apps/minkowski/simplified/simplified_offset.h"
 
 #include "binding/base/arguments.h"
 #include "binding/base/bindings.h"
+#include "binding/base/errors.h"
 #include "binding/base/signatures.h"
 #include "nef/distance/distance.h"
 #include "nef/polyhedron.h"
@@ -83,10 +87,45 @@ auto with_sums(const HowToSum& how, Compute&& compute) {
   return result;
 }
 
-using Binary = Polyhedron (*)(const Polyhedron&, const Polyhedron&, const minkowski::MinkowskiOptions&,
-                              minkowski::MinkowskiReport*);
+template <typename Set>
+using Binary = Set (*)(const Set&, const Polyhedron&, const minkowski::MinkowskiOptions&, minkowski::MinkowskiReport*);
 
-auto binary(Binary operation) {
+// A set, in tiles or not.
+using AnySet = std::variant<Polyhedron, Tiles>;
+
+// operation(set, options, report) of either; the result is in tiles if the set is.
+template <typename Operation>
+AnySet of_any(const AnySet& a, const HowToSum& how, const Operation& operation) {
+  if (const auto* const tiled = std::get_if<Tiles>(&a)) {
+    const TiledPolyhedron& set = *tiled;
+    return Tiles(with_sums(how, [=](const auto& options, auto* counts) { return operation(set, options, counts); }),
+                 tiled->threads);
+  }
+  const Polyhedron& set = std::get<Polyhedron>(a);
+  return with_sums(how, [=](const auto& options, auto* counts) { return operation(set, options, counts); });
+}
+
+auto binary(Binary<Polyhedron> operation, Binary<TiledPolyhedron> in_tiles) {
+  return [operation, in_tiles](const AnySet& a, const Polyhedron& b, unsigned threads, const py::object& progress,
+                               const std::string& strategy, const py::object& report) {
+    struct Either {
+      Binary<Polyhedron> operation;
+      Binary<TiledPolyhedron> in_tiles;
+      Polyhedron b;
+      Polyhedron operator()(const Polyhedron& set, const minkowski::MinkowskiOptions& options,
+                            minkowski::MinkowskiReport* counts) const {
+        return operation(set, b, options, counts);
+      }
+      TiledPolyhedron operator()(const TiledPolyhedron& set, const minkowski::MinkowskiOptions& options,
+                                 minkowski::MinkowskiReport* counts) const {
+        return in_tiles(set, b, options, counts);
+      }
+    };
+    return of_any(a, {threads, progress, strategy, report}, Either{operation, in_tiles, b});
+  };
+}
+
+auto binary(Binary<Polyhedron> operation) {
   return [operation](const Polyhedron& a, const Polyhedron& b, unsigned threads, const py::object& progress,
                      const std::string& strategy, const py::object& report) {
     return with_sums({threads, progress, strategy, report},
@@ -100,13 +139,27 @@ minkowski::Side side_of(const std::string& name) {
   throw InputError("side must be 'inner' or 'outer'");
 }
 
-Polyhedron offset(const Polyhedron& a, py::handle radius, int detail, const std::string& side, unsigned threads,
-                  const py::object& progress, const std::string& strategy, const py::object& report) {
+AnySet offset(const AnySet& a, py::handle radius, int detail, const std::string& side, unsigned threads,
+              const py::object& progress, const std::string& strategy, const py::object& report) {
   const Rational r = to_rational(radius);
   const minkowski::Side kind = side_of(side);
-  return with_sums({threads, progress, strategy, report}, [=](const auto& options, auto* counts) {
-    return minkowski::offset(a, r, detail, kind, options, counts);
+  return of_any(a, {threads, progress, strategy, report}, [=](const auto& set, const auto& options, auto* counts) {
+    return minkowski::offset(set, r, detail, kind, options, counts);
   });
+}
+
+py::object simplified_offset(const Polyhedron& a, py::handle radius, std::optional<std::size_t> triangles,
+                             std::optional<int> digits, int detail, const std::string& side, unsigned threads,
+                             const py::object& progress, const std::string& strategy, const py::object& report) {
+  const Rational r = to_rational(radius);
+  const minkowski::Side kind = side_of(side);
+  if (triangles && *triangles < 4) throw InputError("a solid has at least 4 triangles");
+  const minkowski::SimplifiedOffset found =
+      with_sums({threads, progress, strategy, report}, [=](const auto& options, auto* counts) {
+        return minkowski::simplified_offset(a, r, detail, kind, {triangles, digits}, options, counts);
+      });
+  warn(found.notes);
+  return result_of("SimplifiedOffset", py::make_tuple(found.set, to_fraction(found.error)));
 }
 
 Polyhedron ball(py::handle radius, int detail, const std::string& side) {
@@ -184,29 +237,30 @@ std::vector<Polyhedron> decompose(const Polyhedron& a) {
 void define_module(py::module_& m) {
   m.doc() = "The core of the package nef.minkowski; see there.";
   py::module_::import("nef._nef");
-  const auto bind = [&m](const char* name, Binary operation, const char* text) {
-    m.def(name, binary(operation), py::arg("a"), py::arg("b"), py::arg("threads") = 1, py::arg("progress") = py::none(),
+  const auto bind = [&m](const char* name, const auto& operation, const char* text) {
+    m.def(name, operation, py::arg("a"), py::arg("b"), py::arg("threads") = 1, py::arg("progress") = py::none(),
           py::arg("union") = "auto", py::arg("report") = py::none(), text);
   };
-  bind("sum", nef::minkowski::minkowski_sum,
+  bind("sum", binary(nef::minkowski::minkowski_sum, nef::minkowski::minkowski_sum),
        R"(The Minkowski sum { x + y : x in a, y in b } of any two sets, exactly.
 
-Open and closed parts, lower-dimensional parts and cavities count; empty if one is empty. threads: 0 for as many as the
+Open and closed parts, lower-dimensional parts and cavities count; empty if one is empty. If a is a TiledPolyhedron, the sum
+is one, computed region by region; both must be bounded. threads: 0 for as many as the
 machine has; the result does not depend on it. progress: a function of (phase, done, total): thousandths of the work done, 1000.
 union: how sums are made, 'convolution' (without cells), 'queue' (of sums of cells) or 'auto'; the set is the same. report: a
 dict that receives what was chosen and why ('strategies'), and counts, as in the report of the program `minkowski`. Raises UnsupportedError for unbounded operands with too many reflex edges.)");
-  bind("erode", nef::minkowski::erode,
+  bind("erode", binary(nef::minkowski::erode, nef::minkowski::erode),
        R"(The Minkowski difference: the points x for which b, moved by x, lies in a; exactly.
 
-All of space if b is empty. threads, progress, union, report, errors: as for sum.)");
-  bind("opening", nef::minkowski::opening,
+All of space if b is empty. Sets in tiles, threads, progress, union, report, errors: as for sum.)");
+  bind("opening", binary(nef::minkowski::opening, nef::minkowski::opening),
        R"(a eroded by b, plus b: the union of all translates of b that lie in a.
 
-threads, progress, union, report, errors: as for sum; progress begins again with the second sum. Raises InputError if b is empty.)");
-  bind("closing", nef::minkowski::closing,
+Sets in tiles, threads, progress, union, report, errors: as for sum; progress begins again with the second sum. Raises InputError if b is empty.)");
+  bind("closing", binary(nef::minkowski::closing, nef::minkowski::closing),
        R"(a plus b, eroded by b: the points that no translate of -b reaches without meeting a.
 
-threads, progress, union, report, errors: as for opening.)");
+Sets in tiles, threads, progress, union, report, errors: as for opening.)");
   m.def("offset", &offset, py::arg("a"), py::arg("radius"), py::arg("detail") = 8, py::arg("side") = "outer",
         py::arg("threads") = 1, py::arg("progress") = py::none(), py::arg("union") = "auto",
         py::arg("report") = py::none(),
@@ -214,7 +268,17 @@ threads, progress, union, report, errors: as for opening.)");
 
 The round ball is replaced by a polyhedron, so that the result lies around what the round one would give (side='outer') or
 inside of it ('inner'), and is exact for a ball whose radius is off by at most ball_error(abs(radius), detail, s), where s is
-`side`, or the other one for a negative radius. detail: from 1 to 64, see ball. threads, progress, union, report, errors: as for sum.)");
+`side`, or the other one for a negative radius. detail: from 1 to 64, see ball. Sets in tiles, threads, progress, union, report, errors: as for sum.)");
+  m.def(
+      "simplified_offset", &simplified_offset, py::arg("a"), py::arg("radius"), py::arg("triangles") = py::none(),
+      py::arg("digits") = py::none(), py::arg("detail") = 8, py::arg("side") = "outer", py::arg("threads") = 1,
+      py::arg("progress") = py::none(), py::arg("union") = "auto", py::arg("report") = py::none(),
+      R"(An offset of about `triangles` triangles, or whose coordinates have at most `digits` decimals: nef.SimplifiedOffset.
+
+It still lies around the offset by the radius (side='outer') or inside of it ('inner'), and inside or around the one by a
+radius that differs by at most its `error`; both is checked exactly. triangles, digits: at least one of them. detail, threads,
+progress, union, report: as for offset. Raises InputError if the offset has no bounded solid part, or was to be simplified too
+much.)");
   m.def("ball", &ball, py::arg("radius"), py::arg("detail") = 8, py::arg("side") = "inner",
         R"(A polyhedral ball about the origin: an octahedron whose edges are split into `detail` parts, from 1 to 64.
 
@@ -235,7 +299,7 @@ path: points in rows, in order. threads, progress, union, report, errors: as for
 The way out if they overlap, to contact if they are disjoint; closures and interiors decide. Exact. threads, progress, union, report: as for
 sum. Raises InputError if one is empty, UnsupportedError if one is unbounded.)");
   bind(
-      "no_fit", nef::minkowski::no_fit_set,
+      "no_fit", binary(nef::minkowski::no_fit_set),
       R"(All translations of b for which a and b touch without overlap: facets, edges and points, slots that b fits exactly
 among them.
 

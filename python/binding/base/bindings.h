@@ -19,6 +19,14 @@ inline std::size_t items(const std::vector<Polyhedron>& sets) {
   return sum;
 }
 
+/// The class TiledPolyhedron: a set in tiles, and how many threads operations on it use.
+struct Tiles : TiledPolyhedron {
+  Tiles(TiledPolyhedron set, unsigned threads_of_operations)
+      : TiledPolyhedron(std::move(set)), threads(threads_of_operations) {}
+
+  unsigned threads;
+};
+
 /// The sets of a list, a generator or any other iterable. Throws TypeError for what is not a Polyhedron.
 std::vector<Polyhedron> sets_of(const py::iterable& sets);
 

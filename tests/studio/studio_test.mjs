@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// node studio_test.mjs NEF DATA FOLDER: uses the studio in a headless Chromium as people do, by mouse and by keyboard.
-// Leaves screenshots in FOLDER. Exit code 77 and a word if something that is needed is not installed.
+// node studio_test.mjs NEF DATA FOLDER [WORD]: uses the studio in a headless Chromium as people do, by mouse and by keyboard.
+// Leaves screenshots in FOLDER. With WORD only the tests that have it in their names. Exit code 77 and a word if something that is needed is not installed.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { copyFileSync, cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -9,7 +9,7 @@ import { join, resolve } from "node:path";
 import { addDecimals, decimalNear, stepNumber } from "../../apps/studio/web/exact.js";
 import { Browser, findChromium } from "../view/browser/chromium.mjs";
 
-const [nef, data, folderArgument] = process.argv.slice(2);
+const [nef, data, folderArgument, only = ""] = process.argv.slice(2);
 const folder = resolve(folderArgument);
 const root = join(folder, "root");
 
@@ -57,6 +57,12 @@ async function click(browser, selector) {
 
 async function focus(browser, selector) {
   await browser.evaluate(`document.querySelector(${JSON.stringify(selector)}).focus()`);
+}
+
+// The page of a session in front, where it is drawn.
+async function turnTo(browser, session) {
+  browser.session = session;
+  await browser.send("Page.bringToFront");
 }
 
 // Selects all of a field and types something else.
@@ -295,16 +301,17 @@ const tests = {
   },
 
   async "two pages compute at once, and do not overwrite each other's state"(browser) {
+    await openStudio(browser, server.address, 900, 700);
     const first = browser.session;
     await openStudio(browser, server.address, 900, 700);
     const second = browser.session;
     await type(browser, AREA, "minkowski(sphere(1, 90), sphere(1, 80))");
     await browser.until("!document.querySelector('#progress').hidden");
-    browser.session = first;
+    await turnTo(browser, first);
     await type(browser, AREA, "box(0,0,0, 4,1,1)");
     await browser.until(`${measure("sets-measures", "Volume")} === "4"`);
     await browser.until(`!${hiddenNow("#conflict")} || ${text("#kept")} === "saved"`);
-    browser.session = second;
+    await turnTo(browser, second);
     assert.equal(await browser.evaluate(hiddenNow("#progress")), false, "it computes still");
     await click(browser, "#cancel");
     await browser.until("document.querySelector('#progress').hidden", 20);
@@ -312,11 +319,11 @@ const tests = {
     await browser.until(`!${hiddenNow("#conflict")} || ${text("#kept")} === "saved"`);
     const conflicts = [];
     for (const session of [first, second]) {
-      browser.session = session;
+      await turnTo(browser, session);
       conflicts.push(!(await browser.evaluate(hiddenNow("#conflict"))));
     }
     assert.ok(conflicts.includes(true), "one of them is told that the other one has saved");
-    browser.session = second;
+    await turnTo(browser, second);
     await browser.until(`${measure("sets-measures", "Volume")} === "8"`);
     if (!(await browser.evaluate(hiddenNow("#conflict")))) await click(browser, "#overwrite-state");
     await browser.until(`${hiddenNow("#conflict")}`);
@@ -342,9 +349,13 @@ const tests = {
   },
 
   async "narrow, light and dark"(browser) {
+    await openStudio(browser, server.address);
     await browser.prefer("prefers-color-scheme", "dark");
     await type(browser, AREA, "h = 5;  # a pipe\nouter = cylinder(h, 3/2);\nouter - cylinder(h, 1)");
     await browser.until(`${measure("sets-measures", "Items")}?.startsWith("128 vertices")`);
+    const seen = await browser.evaluate(`nefViewer.page.focus.map((corner) => nefViewer.picker.project(corner)).every(([x, y]) =>
+      x > 0 && x < nefViewer.canvas.clientWidth && y > 0 && y < nefViewer.canvas.clientHeight)`);
+    assert.ok(seen, "a set of another size is framed anew");
     await picture(browser, "dark_sets_1280");
     await click(browser, "#tabs [data-panel=planner]");
     await browser.until(`${text("#planner-status")} === "There is a path."`);
@@ -388,7 +399,7 @@ const browser = new Browser(chromium);
 const patiently = browser.until.bind(browser);
 browser.until = (condition, seconds = 40) => patiently(condition, seconds); // rather than as long as large pages may take
 let failed = 0;
-for (const [name, test] of Object.entries(tests)) {
+for (const [name, test] of Object.entries(tests).filter(([title]) => title.includes(only))) {
   const begin = Date.now();
   try {
     await test(browser);

@@ -70,6 +70,18 @@ export class HullsPanel {
     this.viewer.reset();
   }
 
+  // The hull fills the view at first; its cameras stand far around it.
+  frame(scene) {
+    const { xyz } = scene.layers[0].vertices;
+    if (xyz.length === 0) return;
+    const of = (best) => [0, 1, 2].map((axis) => {
+      let found = xyz[axis];
+      for (let i = axis; i < xyz.length; i += 3) found = best(found, xyz[i]);
+      return found;
+    });
+    scene.focus = [of(Math.min), of(Math.max)];
+  }
+
   #edited(delay = HULLS_DELAY) {
     this.changed();
     this.#showCommands();

@@ -15,6 +15,18 @@ const KEEP_AFTER = 600; // milliseconds after the last change
 const SETS = /\.(nef|nef3|off|obj|stl|ply|glb|3mf)$/i;
 const EMPTY_SCENE = { title: "", center: [0, 0, 0], layers: [] };
 
+// The ball around what is to be seen; null if that is nothing.
+function ballOf({ focus, center }) {
+  if (!focus) return null;
+  const [low, high] = focus;
+  return { center: low.map((x, i) => (x + high[i]) / 2 + center[i]), radius: Math.hypot(...high.map((x, i) => x - low[i])) / 2 };
+}
+
+function isNear(ball, other) {
+  const away = Math.hypot(...ball.center.map((x, i) => x - other.center[i]));
+  return ball.radius < 1.6 * other.radius && other.radius < 1.6 * ball.radius && away < 0.6 * other.radius;
+}
+
 class StudioPage {
   constructor(begin) {
     this.begin = begin;
@@ -128,16 +140,21 @@ class StudioPage {
     }
     this.exportForm.offer(this.panel.sets);
     byId("export-said").textContent = "";
-    this.framed = false;
+    this.framed = null;
     if (compute) this.panel.compute();
     this.#keepSoon();
   }
 
-  // The first scene of a panel fills the view; the eye stays for those that follow.
+  // The first scene of a panel fills the view; the eye stays for those that follow, unless one is of another size or
+  // elsewhere.
   #showScene(scene) {
+    this.panel.frame?.(scene);
     this.viewer.show(scene);
-    if (!this.framed) this.viewer.reset();
-    this.framed = true;
+    const ball = ballOf(scene);
+    if (!this.framed || (ball && !isNear(ball, this.framed))) {
+      this.viewer.reset();
+      this.framed = ball;
+    }
   }
 
   async refreshFiles() {

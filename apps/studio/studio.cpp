@@ -240,7 +240,7 @@ WebReply Studio::compute(const Json& request) {
   PanelResult result;
   std::string scene;
   pages_.compute(page_of(request), [&](const Monitor& monitor) -> std::optional<Sets> {
-    result = panel->second(request, {root_, loaded_, silhouettes_, monitor});
+    result = panel->second(request, {root_, loaded_, silhouettes_, scenes_, monitor});
     view::PageOptions options;
     options.title = panel->first;
     options.exact_text_limit = kExactTextOfLayer;

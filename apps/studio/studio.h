@@ -73,6 +73,7 @@ class Studio {
   PageTable pages_;
   LoadedFiles loaded_;
   SilhouetteCache silhouettes_;
+  SceneCache scenes_;
   mutable std::mutex state_mutex_;
   std::uint64_t revision_ = 0;  // of the state; a page that has not seen the last one does not overwrite it
 };

@@ -4,6 +4,7 @@
 #include "apps/studio/studio.h"
 
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <fstream>
 #include <thread>
 
@@ -174,6 +175,39 @@ TEST_CASE("Planner: a tight hole, the hole moved away, and files of the scene") 
   request["folder"] = "..";
   CHECK(answer(studio, "compute", request, 422)["error"].get<std::string>().find("below the folder") !=
         std::string::npos);
+}
+
+TEST_CASE("Planner: obstacles that rest are kept, and files are read again when they have changed") {
+  const Place place;
+  Studio studio({.root = place.root}, [] {});
+  Json obstacles = Json::array({"cube.off"});
+  for (int i = 1; i < 70; ++i) {
+    const std::string x = std::to_string(3 * i);
+    obstacles.push_back("box(" + x + ",0,0, " + x + ".5,1,1)");
+  }
+  const Json scene{{"robot", "box(0,0,0, 1,1,1)"}, {"obstacles", obstacles}, {"start", {0, 5, 0}}, {"goal", {9, 5, 0}}};
+  Json request{{"page", "a"}, {"panel", "planner"}, {"scene", scene.dump()}, {"folder", ""}, {"moves", Json::object()}};
+  const auto facets_of = [](const Json& drawn, const std::string& name) {
+    for (const Json& layer : drawn["layers"]) {
+      if (layer["name"] == name) return layer["facets"]["index"][2].get<std::size_t>();
+    }
+    return std::size_t{0};
+  };
+  CHECK(facets_of(compute(studio, request).scene, "obstacles") == 6 * 70);
+  for (const char* y : {"5", "0", "-5"}) {
+    request["moves"] = {{"7", {"0", y, "0"}}};
+    const Computed moved = compute(studio, request);
+    CHECK(facets_of(moved.scene, "obstacles") == 6 * 69);
+    CHECK(facets_of(moved.scene, "obstacle 7") == 6);
+    CHECK(moved.report["answer"]["status"] == "path");
+  }
+  request["moves"] = {{"7", {"-21", "5", "0"}}};
+  CHECK(compute(studio, request).report["answer"]["status"] == "invalid_start");
+  request["moves"] = Json::object();
+  CHECK(compute(studio, request).report["answer"]["status"] == "path");
+  write_polyhedron((place.root / "cube.off").string(), make_box({0, 0, 0}, {1, 6, 1}));
+  fs::last_write_time(place.root / "cube.off", fs::file_time_type::clock::now() + std::chrono::seconds(5));
+  CHECK(compute(studio, request).report["answer"]["status"] == "invalid_start");
 }
 
 TEST_CASE("Hulls: views switched off, and images of the scene") {

@@ -11,6 +11,7 @@
 
 #include "apps/studio/pages/page_table.h"
 #include "apps/studio/panels/loaded_files.h"
+#include "apps/studio/panels/scene_cache.h"
 #include "apps/studio/panels/silhouette_cache.h"
 #include "apps/studio/root/root_folder.h"
 #include "apps/view/layer.h"
@@ -25,6 +26,7 @@ struct PanelContext {
   const RootFolder& root;
   LoadedFiles& files;
   SilhouetteCache& silhouettes;
+  SceneCache& scenes;
   Monitor monitor;
 };
 

@@ -139,7 +139,9 @@ class LoopbackServer::Implementation : public httplib::Server {
 
   void serve() {
     acceptor_ = std::this_thread::get_id();
-    if (!stopped_) listen_after_bind();
+    // It ends by itself where accepting fails, for a connection that was broken off meanwhile, say.
+    while (!stopped_ && !listen_after_bind() && !stopped_ && bind_to_port("127.0.0.1", port_)) {
+    }
   }
   void end() {
     stopped_ = true;

@@ -34,8 +34,9 @@ export class PlannerPanel {
     byId("planner-obstacle").addEventListener("change", () => {
       this.obstacle = Number(byId("planner-obstacle").value);
       this.#showMove();
+      if (byId("planner-drag").checked) this.#edited();
     });
-    byId("planner-free").addEventListener("change", () => this.#edited());
+    for (const id of ["planner-free", "planner-drag"]) byId(id).addEventListener("change", () => this.#edited());
     byId("planner-compute").addEventListener("click", () => this.compute());
     byId("planner-save").addEventListener("click", () => this.#save());
     this.#setScene({ text: EXAMPLE, file: "", folder: "" });
@@ -151,11 +152,18 @@ export class PlannerPanel {
     return Object.fromEntries(Object.entries(this.moves).filter(([, move]) => move.some((x) => x.trim() !== "0")));
   }
 
+  // With the one that may be dragged, which then is a layer of its own, however many there are.
+  #movesWanted() {
+    const moves = this.#movesThatMove();
+    if (byId("planner-drag").checked) moves[this.obstacle] = this.moves[this.obstacle] ?? ZERO;
+    return moves;
+  }
+
   async compute() {
     const { text, folder, start, goal, free } = this.state;
     let done;
     try {
-      done = await this.computing.run(this.name, { scene: text, folder, start, goal, free, moves: this.#movesThatMove() });
+      done = await this.computing.run(this.name, { scene: text, folder, start, goal, free, moves: this.#movesWanted() });
     } catch (error) {
       if (!(error instanceof ServerError)) throw error;
       this.#showError(error.message);

@@ -25,8 +25,9 @@ struct StudioFlags {
 
 void add_studio_options(CLI::App& command, Session&, StudioFlags& flags) {
   command
-      .add_option("files", flags.files,
-                  "Below the root: sets and meshes, a scene of the planner, a .nefstudio file with the state")
+      .add_option(
+          "files", flags.files,
+          "Below the root: sets and meshes, a scene of the planner or of a hull, a .nefstudio file with the state")
       ->type_name("FILE");
   command.add_option("--root", flags.root, "The folder that the studio reads and writes, and no other (.)")
       ->type_name("FOLDER");
@@ -66,11 +67,12 @@ void run_studio(Session& session, const StudioFlags& flags) {
 }  // namespace
 
 Commands studio_commands() {
-  return {with_flags<StudioFlags>({.name = "studio",
-                                   .description = "Sets, sums and motions live in a browser, on this machine only",
-                                   .operands = "",
-                                   .reads_meshes = false},
-                                  add_studio_options, run_studio)};
+  return {
+      with_flags<StudioFlags>({.name = "studio",
+                               .description = "Sets, sums, hulls and motions live in a browser, on this machine only",
+                               .operands = "",
+                               .reads_meshes = false},
+                              add_studio_options, run_studio)};
 }
 
 }  // namespace nef

@@ -24,7 +24,7 @@ function ballOf({ focus, center }) {
 
 function isNear(ball, other) {
   const away = Math.hypot(...ball.center.map((x, i) => x - other.center[i]));
-  return ball.radius < 1.6 * other.radius && other.radius < 1.6 * ball.radius && away < 0.6 * other.radius;
+  return ball.radius < 1.4 * other.radius && other.radius < 1.4 * ball.radius && away < 0.4 * other.radius;
 }
 
 class StudioPage {
@@ -190,13 +190,17 @@ class StudioPage {
 
   #keepSoon() {
     clearTimeout(this.keeping);
+    byId("kept").textContent = "";
     this.keeping = setTimeout(() => this.#keep(), KEEP_AFTER);
   }
 
   async #keep(overwrite = false) {
     clearTimeout(this.keeping);
     const text = this.#stateText();
-    if (text === this.kept && !overwrite) return;
+    if (text === this.kept && !overwrite) {
+      byId("kept").textContent = "saved";
+      return;
+    }
     try {
       const { revision } = await ask("state", { text, revision: this.revision, overwrite });
       this.revision = revision;

@@ -19,7 +19,8 @@ CORE = [
 FACE = "polyhedron.h", "labeled_polyhedron.h"
 SHARED = {"program", "remeshing", "view"}  # what programs share
 APPS = {"program": set(), "remeshing": set(), "view": set(), "minkowski": SHARED, "nef": SHARED | {"minkowski"},
-        "visual_hull": SHARED, "planner": SHARED | {"minkowski"}, "nef_mpi": SHARED | {"minkowski", "visual_hull"}}
+        "visual_hull": SHARED, "planner": SHARED | {"minkowski"},
+        "studio": SHARED | {"minkowski", "planner", "visual_hull"}, "nef_mpi": SHARED | {"minkowski", "visual_hull"}}
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 INCLUDE = re.compile(r'^#include "((?:nef|apps|tests|fuzz|bench|python)/[^"]+)"', re.MULTILINE)

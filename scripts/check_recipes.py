@@ -38,7 +38,7 @@ LIBRARIES = {
     "assimp": ("assimp", "libassimp", "assimp"),
 }
 # Parts of the compiler, or of programs that no recipe builds.
-NO_LIBRARY = {"Threads", "MPI", "urdf_parser", "urdf_model", "console_bridge"}
+NO_LIBRARY = {"Threads", "MPI", "PkgConfig", "urdf_parser", "urdf_model", "console_bridge"}
 STUBS = """
 function(vcpkg_check_features)
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "OUT_FEATURE_OPTIONS" "FEATURES;INVERTED_FEATURES")

@@ -113,7 +113,7 @@ class Demo:
 """
         with open(self.path("index.html"), "w", encoding="utf-8") as file:
             file.write(page)
-        print(f"Open {self.path('index.html')}")
+        print(f"Open {self.path('index.html')}; live in the browser: {sys.argv[1]}/nef studio --root {sys.argv[2]}")
 
 
 def main() -> None:

@@ -10,6 +10,7 @@ import subprocess
 import pytest
 
 PRINTS = "about what a program prints"
+STUDIO = "the page and its server are the program's"
 RUN = {
     "--help": "help(), and inspect.signature",
     "--version": "nef.__version__",
@@ -62,6 +63,10 @@ NEF = {
     "--from": "nef.notebook.picture(direction)",
     "--section": "nef.notebook.picture(section)",
     "--size": "nef.notebook.picture(width)",
+    "--root": STUDIO,
+    "--port": STUDIO,
+    "--no-browser": STUDIO,
+    "--time": STUDIO,
 }
 PROGRAMS = {
     "nef": NEF,

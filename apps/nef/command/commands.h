@@ -66,5 +66,6 @@ Commands parts_commands();
 Commands eval_commands(const CommandExtensions& extensions);
 Commands apply_commands(const CommandExtensions& extensions);
 Commands view_commands();
+Commands studio_commands();
 
 }  // namespace nef

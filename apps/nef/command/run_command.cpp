@@ -37,9 +37,10 @@ void add_commands(CLI::App& app, Session& session, const CommandExtensions& exte
   app.set_version_flag("--version", version_text("nef"));
   app.require_subcommand(1);
   app.footer("Exit codes: 0 done or yes, 1 no (unequal, check failed), 2 bad input or usage.");
-  for (const Commands& rows : {boolean_commands(), unary_commands(), transform_commands(), info_commands(),
-                               check_commands(), repair_commands(), mesh_commands(), query_commands(), parts_commands(),
-                               eval_commands(extensions), apply_commands(extensions), view_commands()}) {
+  for (const Commands& rows :
+       {boolean_commands(), unary_commands(), transform_commands(), info_commands(), check_commands(),
+        repair_commands(), mesh_commands(), query_commands(), parts_commands(), eval_commands(extensions),
+        apply_commands(extensions), view_commands(), studio_commands()}) {
     for (const Command& row : rows) add(app, session, row);
   }
 }

@@ -14,10 +14,15 @@ export class CameraControl {
     this.target = new THREE.Vector3();
     this.pointers = new Map();
     this.travel = 0;
+    this.grab = () => null; // (x, y) to what is held there: {drag(x, y), drop()}; null turns the camera
+    this.held = null;
     canvas.addEventListener("pointerdown", (event) => this.#press(event));
     canvas.addEventListener("pointermove", (event) => this.#drag(event));
     canvas.addEventListener("pointerup", (event) => this.#release(event));
-    canvas.addEventListener("pointercancel", (event) => this.pointers.delete(event.pointerId));
+    canvas.addEventListener("pointercancel", (event) => {
+      this.pointers.delete(event.pointerId);
+      this.#drop();
+    });
     canvas.addEventListener("contextmenu", (event) => event.preventDefault());
     canvas.addEventListener("wheel", (event) => {
       event.preventDefault();
@@ -34,6 +39,15 @@ export class CameraControl {
     this.camera.up.copy(up);
     this.camera.position.copy(this.target).addScaledVector(direction.clone().normalize(), distance);
     this.camera.lookAt(this.target);
+    this.onChange();
+  }
+
+  // Moves target and eye.
+  shift(by) {
+    const vector = new THREE.Vector3(...by);
+    this.target.add(vector);
+    this.camera.position.add(vector);
+    this.camera.updateMatrixWorld();
     this.onChange();
   }
 
@@ -77,6 +91,19 @@ export class CameraControl {
     this.pointers.set(event.pointerId, { x: event.clientX, y: event.clientY });
     if (this.pointers.size === 1) this.travel = 0;
     else this.travel = Infinity;
+    this.#drop();
+    if (this.pointers.size === 1 && event.button === 0 && !event.shiftKey) this.held = this.grab(...this.#place(event));
+  }
+
+  #place(event) {
+    const box = this.canvas.getBoundingClientRect();
+    return [event.clientX - box.left, event.clientY - box.top];
+  }
+
+  #drop() {
+    const { held } = this;
+    this.held = null;
+    held?.drop();
   }
 
   #drag(event) {
@@ -91,6 +118,8 @@ export class CameraControl {
       const after = Math.hypot(event.clientX - other.x, event.clientY - other.y);
       if (after > 0) this.zoom(before / after);
       this.move(dx / 2, dy / 2);
+    } else if (this.held && this.travel > TAP_DISTANCE) {
+      this.held.drag(...this.#place(event));
     } else if (this.travel > TAP_DISTANCE) {
       if (event.shiftKey || (event.buttons & 6) !== 0) this.move(dx, dy);
       else this.turn((dx / this.canvas.clientHeight) * 4, (dy / this.canvas.clientHeight) * 4);
@@ -101,9 +130,9 @@ export class CameraControl {
 
   #release(event) {
     if (!this.pointers.delete(event.pointerId)) return;
+    this.#drop();
     if (this.pointers.size > 0 || this.travel > TAP_DISTANCE) return;
-    const box = this.canvas.getBoundingClientRect();
-    this.onTap(event.clientX - box.left, event.clientY - box.top);
+    this.onTap(...this.#place(event));
   }
 
   #key(event) {

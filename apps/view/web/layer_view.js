@@ -262,6 +262,15 @@ export class LayerView {
     this.setOpacity(layer.opacity);
   }
 
+  // Frees what the graphics card has of it.
+  dispose() {
+    this.group.traverse((object) => {
+      object.geometry?.dispose();
+      object.material?.map?.dispose();
+      object.material?.dispose();
+    });
+  }
+
   setOpacity(value) {
     this.opacity.value = value;
     const { material } = this.facets;

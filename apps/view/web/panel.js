@@ -34,7 +34,7 @@ function layerRow(view, onChange) {
 }
 
 export function makeLayerRows(views, onChange) {
-  byId("layers").append(...views.map((view) => layerRow(view, onChange)));
+  byId("layers").replaceChildren(...views.map((view) => layerRow(view, onChange)));
 }
 
 const MOST_VOLUMES = 12; // that the legend names one by one

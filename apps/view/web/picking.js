@@ -63,21 +63,22 @@ export class Picker {
     return new THREE.Vector3().fromArray(view.layer.vertices.xyz, 3 * vertex).applyMatrix4(view.matrix()).toArray();
   }
 
-  #ray(x, y) {
+  // The ray of a pixel, whose parameter is the depth.
+  ray(x, y) {
     const ndc = [(x / this.canvas.clientWidth) * 2 - 1, 1 - (y / this.canvas.clientHeight) * 2];
     const far = new THREE.Vector3(...ndc, 0.5).unproject(this.camera);
     const forward = this.camera.getWorldDirection(new THREE.Vector3());
     const origin = this.camera.position.toArray();
     const direction = far.sub(this.camera.position);
-    // Scaled so that the parameter is the depth.
     return { origin, direction: direction.multiplyScalar(1 / direction.dot(forward)).toArray() };
   }
 
-  #facet(x, y) {
-    const { origin, direction } = this.#ray(x, y);
-    let best = { depth: Infinity };
-    this.views.forEach((view, layer) => {
-      if (!view.group.visible || !view.facets.visible) return;
+  // The nearest facet of each layer under a pixel: {kind, layer, item, depth, solid}, the nearest one first.
+  facets(x, y) {
+    const { origin, direction } = this.ray(x, y);
+    return this.views.flatMap((view, layer) => {
+      if (!view.group.visible || !view.facets.visible) return [];
+      let best = { depth: Infinity };
       const { begin, corners } = view.layer.facets;
       // The ray in the layer's coordinates.
       const back = view.matrix().clone().invert();
@@ -91,13 +92,13 @@ export class Picker {
           best = { kind: "facet", layer, item: f, depth: t, solid: view.opacity.value > 0.995 };
         }
       }
-    });
-    return best;
+      return best.kind ? [best] : [];
+    }).sort((a, b) => a.depth - b.depth);
   }
 
   // {kind, layer, item} or null.
   pick(x, y) {
-    const facet = this.#facet(x, y);
+    const facet = this.facets(x, y)[0] ?? { depth: Infinity };
     // A little behind the facet is still on it: the reach is in pixels, and facets slope.
     const behind = facet.solid ? facet.depth * 1.02 : Infinity;
     return this.#nearestVertex(x, y, behind) ?? this.#nearestEdge(x, y, behind) ?? (facet.kind ? facet : null);

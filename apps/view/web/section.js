@@ -73,11 +73,12 @@ void main() {
 }
 
 export class Section {
-  constructor(views, shared, radius) {
+  // before: the section of the scene before, whose plane stays.
+  constructor(views, shared, radius, before) {
     Object.assign(this, { views, shared, radius });
-    this.on = false;
-    this.normal = new THREE.Vector3(1, 0, 0);
-    this.offset = 0; // of the plane from the centre, in units of the radius
+    this.on = before?.on ?? false;
+    this.normal = before?.normal ?? new THREE.Vector3(1, 0, 0);
+    this.offset = before?.offset ?? 0; // of the plane from the centre, in units of the radius
     this.caps = [];
   }
 

@@ -131,9 +131,16 @@ export class Browser {
     await this.send("Input.dispatchTouchEvent", { type, touchPoints: points.map(([x, y], id) => ({ x, y, id })) });
   }
 
-  async key(key) {
-    await this.send("Input.dispatchKeyEvent", { type: "keyDown", key, text: key.length === 1 ? key : undefined });
-    await this.send("Input.dispatchKeyEvent", { type: "keyUp", key });
+  // more: modifiers (1 Alt, 2 Ctrl, 8 Shift), or a text that the key has beside its name.
+  async key(key, more = {}) {
+    await this.send("Input.dispatchKeyEvent", { type: "keyDown", key, text: key.length === 1 ? key : undefined, ...more });
+    await this.send("Input.dispatchKeyEvent", { type: "keyUp", key, ...more });
+    await this.frame();
+  }
+
+  // A text into what has the focus, as if it were pasted.
+  async type(text) {
+    await this.send("Input.insertText", { text });
     await this.frame();
   }
 

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a panel of the page computes: a request of its script in, a report, things to draw and sets out. A new panel is
+// a function of this type and a row in studio.cpp.
+#pragma once
+
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/studio/pages/page_table.h"
+#include "apps/studio/panels/loaded_files.h"
+#include "apps/studio/panels/scene_cache.h"
+#include "apps/studio/panels/silhouette_cache.h"
+#include "apps/studio/root/root_folder.h"
+#include "apps/view/layer.h"
+#include "nef/base/monitor.h"
+
+namespace nef::studio {
+
+using Json = nlohmann::ordered_json;
+
+/// What a panel works with.
+struct PanelContext {
+  const RootFolder& root;
+  LoadedFiles& files;
+  SilhouetteCache& silhouettes;
+  SceneCache& scenes;
+  Monitor monitor;
+};
+
+/// What it has found.
+struct PanelResult {
+  Json report = Json::object();     ///< for the script of the panel
+  std::vector<view::Layer> layers;  ///< for the viewer
+  Sets sets;                        ///< what can be exported, by name
+};
+
+/// Throws InputError, of a field of the request (FieldError) where there is one.
+using Panel = std::function<PanelResult(const Json& request, const PanelContext& context)>;
+
+/// What is wrong with a field of a request, and where in its text.
+class FieldError : public InputError {
+ public:
+  FieldError(std::string field, std::size_t offset, const std::string& what)
+      : InputError(what), field_(std::move(field)), offset_(offset) {}
+  [[nodiscard]] const std::string& field() const { return field_; }
+  /// Bytes of UTF-8 before the place of the error.
+  [[nodiscard]] std::size_t offset() const { return offset_; }
+
+ private:
+  std::string field_;
+  std::size_t offset_;
+};
+
+/// The text of a request's member. Throws InputError if it is not there or no text.
+std::string text_of(const Json& request, const std::string& member);
+
+/// An expression: {"text"}. Sets: "result".
+PanelResult sets_panel(const Json& request, const PanelContext& context);
+/// Two operands: {"a", "b", "kind", "radius", "splits"}. Sets: "result".
+PanelResult sums_panel(const Json& request, const PanelContext& context);
+/// A scene of a visual hull: {"scene": its file, "off": numbers of views, "threshold", "simplify", "residuals"}. Sets:
+/// "result".
+PanelResult hulls_panel(const Json& request, const PanelContext& context);
+/// A scene of translations: {"scene": what the file says, "folder": where it is, "start", "goal", "moves": translations
+/// by the numbers of obstacles, "free": whether free space is wanted}. Sets: "robot", and "free space" if it was made.
+PanelResult planner_panel(const Json& request, const PanelContext& context);
+
+}  // namespace nef::studio

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Scenes of visual hulls with their outlines in place of their images, which take longer to read and to trace than a
+// hull to compute.
+#pragma once
+
+#include <filesystem>
+#include <list>
+#include <mutex>
+#include <string>
+
+#include "apps/studio/root/root_folder.h"
+#include "apps/visual_hull/scene/scene.h"
+#include "nef/base/monitor.h"
+#include "nef/construct/construct.h"
+
+namespace nef::studio {
+
+/// How outlines are made.
+struct OutlineOptions {
+  std::string threshold;  ///< as parse_threshold reads it; empty: that of the scene
+  double simplify = 0;    ///< pixels by which outlines may move to lose vertices
+
+  friend bool operator==(const OutlineOptions&, const OutlineOptions&) = default;
+};
+
+class SilhouetteCache {
+ public:
+  /// The scene of a JSON file below the root, each view with polygons. Kept as long as the file stays as it is; images
+  /// are read again only for other options. Throws InputError, also for an image that is not below the root. Any number
+  /// of threads may call it.
+  visual_hull::Scene scene(const RootFolder& root, const std::string& name, const OutlineOptions& options,
+                           const Monitor& monitor, Messages& notes);
+
+ private:
+  static constexpr std::size_t kMost = 6;  // the last used ones
+
+  struct Entry {
+    std::filesystem::path file;
+    std::filesystem::file_time_type written;
+    OutlineOptions options;
+    visual_hull::Scene scene;
+    Messages notes;
+  };
+
+  std::mutex mutex_;
+  std::list<Entry> entries_;
+};
+
+}  // namespace nef::studio

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Hulls: a scene of cameras and masks, its views switched on and off.
+import { shellLine, showCommands } from "./commands.js";
+import { approximately } from "./exact.js";
+import { fillNotes, fillTable, measureRows, secondsText } from "./measures.js";
+import { ServerError } from "./server.js";
+import { byId } from "../../view/web/panel.js";
+
+const HULLS_DELAY = 30;
+
+export class HullsPanel {
+  constructor({ computing, exportForm, changed, viewer }) {
+    Object.assign(this, { computing, exportForm, changed, viewer });
+    this.name = "hulls";
+    this.sets = [];
+    this.scene = "";
+    this.off = new Set(); // numbers of views
+    byId("hulls-open").addEventListener("click", () => this.openFile(byId("hulls-file").value));
+    byId("hulls-compute").addEventListener("click", () => this.compute());
+    byId("hulls-simplify").addEventListener("input", () => {
+      byId("hulls-slider").value = approximately(byId("hulls-simplify").value);
+      this.#edited(200);
+    });
+    byId("hulls-slider").addEventListener("input", () => {
+      byId("hulls-simplify").value = byId("hulls-slider").value;
+      this.#edited();
+    });
+    byId("hulls-threshold").addEventListener("input", () => this.#edited(300));
+    byId("hulls-residuals").addEventListener("change", () => this.#edited());
+    byId("hulls-all").addEventListener("click", () => {
+      this.off.clear();
+      for (const box of document.querySelectorAll("#hulls-views input")) box.checked = true;
+      this.#edited();
+    });
+    this.#showScene();
+  }
+
+  get state() {
+    return { scene: this.scene, off: [...this.off].sort((a, b) => a - b), simplify: byId("hulls-simplify").value.trim(),
+      threshold: byId("hulls-threshold").value.trim(), residuals: byId("hulls-residuals").checked };
+  }
+
+  set state({ scene = "", off = [], simplify = "1", threshold = "", residuals = false }) {
+    this.scene = scene;
+    this.off = new Set(off);
+    byId("hulls-simplify").value = simplify;
+    byId("hulls-slider").value = approximately(simplify);
+    byId("hulls-threshold").value = threshold;
+    byId("hulls-residuals").checked = residuals;
+    this.#showScene();
+  }
+
+  offerFiles(files) {
+    const select = byId("hulls-file");
+    const before = select.value;
+    const scenes = files.map(({ name }) => name).filter((name) => name.endsWith(".json"));
+    select.replaceChildren(...scenes.map((name) => new Option(name, name)));
+    if (scenes.includes(before)) select.value = before;
+    byId("hulls-open").disabled = scenes.length === 0;
+  }
+
+  async openFile(file) {
+    this.scene = file;
+    this.off.clear();
+    byId("hulls-views").replaceChildren();
+    this.#showScene();
+    this.changed();
+    await this.compute();
+    this.viewer.reset();
+  }
+
+  // The hull fills the view at first; its cameras stand far around it.
+  frame(scene) {
+    const { xyz } = scene.layers[0].vertices;
+    if (xyz.length === 0) return;
+    const of = (best) => [0, 1, 2].map((axis) => {
+      let found = xyz[axis];
+      for (let i = axis; i < xyz.length; i += 3) found = best(found, xyz[i]);
+      return found;
+    });
+    scene.focus = [of(Math.min), of(Math.max)];
+  }
+
+  #edited(delay = HULLS_DELAY) {
+    this.changed();
+    this.#showCommands();
+    this.computing.soon(() => this.compute(), delay);
+  }
+
+  async compute() {
+    if (!this.scene) return;
+    let done;
+    try {
+      done = await this.computing.run(this.name, this.state);
+    } catch (error) {
+      if (!(error instanceof ServerError)) throw error;
+      byId("hulls-error").textContent = error.message;
+      return;
+    }
+    if (!done) return;
+    byId("hulls-error").textContent = "";
+    const { report, seconds } = done;
+    fillTable(byId("hulls-measures"), [...measureRows(report.result),
+      ["Time", `outlines ${secondsText(report.outlines_s)}, hull ${secondsText(report.op_s)}, ${secondsText(seconds)} until it was here`]]);
+    fillNotes(byId("hulls-notes"), report.notes);
+    this.#showViews(report.views);
+    this.sets = ["result"];
+    this.exportForm.offer(this.sets);
+  }
+
+  // The boxes stay, so that the one that was just used keeps the focus.
+  #showViews(views) {
+    const list = byId("hulls-views");
+    if (list.children.length !== views.length) {
+      list.replaceChildren(...views.map(({ name }, number) => {
+        const item = document.createElement("li");
+        const box = Object.assign(document.createElement("input"), { type: "checkbox" });
+        box.addEventListener("change", () => {
+          if (box.checked) this.off.delete(number);
+          else this.off.add(number);
+          this.#edited();
+        });
+        const label = document.createElement("label");
+        const residual = Object.assign(document.createElement("span"), { className: "residual" });
+        label.append(box, ` ${name} `, residual);
+        item.append(label);
+        return item;
+      }));
+    }
+    views.forEach(({ on, residual, inside }, number) => {
+      const item = list.children[number];
+      item.querySelector("input").checked = on;
+      item.querySelector(".residual").textContent = residual === undefined ? ""
+        : `${(100 * residual).toFixed(2)} %${inside === false ? ", not inside" : ""}`;
+    });
+  }
+
+  #showScene() {
+    byId("hulls-title").textContent = this.scene || "Open a scene of cameras and masks (.json) of your folder above";
+    byId("hulls-compute").disabled = !this.scene;
+    this.#showCommands();
+  }
+
+  #showCommands() {
+    const { scene, off, simplify, threshold } = this.state;
+    const name = scene || "scene.json";
+    const how = [...(simplify && simplify !== "0" ? ["--simplify", simplify] : []), ...(threshold ? ["--threshold", threshold] : [])];
+    const python = [JSON.stringify(name), ...(simplify && simplify !== "0" ? [`tolerance=${simplify}`] : []),
+      ...(threshold ? [`threshold=${/^[\d.]+$/.test(threshold) ? threshold : JSON.stringify(threshold)}`] : [])];
+    const without = off.length > 0 ? "# all views: take those that are off out of the scene's file\n" : "";
+    showCommands(byId("hulls-commands"), [
+      ["Command line", `${without}${shellLine("visual_hull", name, "-o", "hull.nef", ...how)}`],
+      ["Python", `${without}import nef.visual_hull\nhull = nef.visual_hull.read(${python.join(", ")})`],
+    ]);
+  }
+}

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Planner: a scene of a file, its ends and obstacles moved by numbers or by the mouse, and the answer.
+import { shellLine, showCommands } from "./commands.js";
+import { addDecimals, approximately, decimalNear } from "./exact.js";
+import { fillNotes, fillTable, secondsText } from "./measures.js";
+import { ask, ServerError } from "./server.js";
+import { byId } from "../../view/web/panel.js";
+
+const PLANNER_DELAY = 60;
+const EXAMPLE = JSON.stringify({
+  robot: "box(0,0,0, 1,1,1)",
+  obstacles: ["box(-1,-1,-1, 10,4,4) - interior(box(0,0,0, 9,3,3))", "box(4,0,0, 5,3,3) - box(4,1,1, 5,2,2)"],
+  start: [1, "1/2", "1/2"],
+  goal: [7, "3/2", "3/2"],
+}, null, 2);
+const AXES = ["x", "y", "z"];
+const ZERO = ["0", "0", "0"];
+
+// Numbers of JSON keep their digits as texts, since 0.1 is one tenth here.
+const spelledNumbers = (text) => text.replaceAll(/("(?:[^"\\]|\\.)*")|(-?\d+\.?\d*(?:[eE][+-]?\d+)?)/g,
+  (all, quoted, number) => quoted ?? `"${number}"`);
+
+export class PlannerPanel {
+  constructor({ computing, exportForm, changed, viewer }) {
+    Object.assign(this, { computing, exportForm, changed, viewer });
+    this.name = "planner";
+    this.sets = [];
+    this.moves = {}; // by the number of an obstacle
+    this.obstacle = 0; // the one whose numbers are shown
+    this.fields = {};
+    for (const point of ["start", "goal", "move"]) this.fields[point] = this.#makeFields(point);
+    byId("planner-open").addEventListener("click", () => this.openFile(byId("planner-file").value));
+    byId("planner-obstacle").addEventListener("change", () => {
+      this.obstacle = Number(byId("planner-obstacle").value);
+      this.#showMove();
+      if (byId("planner-drag").checked) this.#edited();
+    });
+    for (const id of ["planner-free", "planner-drag"]) byId(id).addEventListener("change", () => this.#edited());
+    byId("planner-compute").addEventListener("click", () => this.compute());
+    byId("planner-save").addEventListener("click", () => this.#save());
+    this.#setScene({ text: EXAMPLE, file: "", folder: "" });
+  }
+
+  // An item that was clicked: its obstacle becomes the one that the numbers move.
+  selected(item) {
+    const found = item && /^obstacle (\d+)$/.exec(this.viewer.views[item.layer].layer.name);
+    if (!found) return;
+    this.obstacle = Number(found[1]);
+    this.#showMove();
+  }
+
+  #makeFields(point) {
+    return AXES.map((axis) => {
+      const input = Object.assign(document.createElement("input"), { type: "text", inputMode: "decimal", id: `planner-${point}-${axis}` });
+      input.setAttribute("aria-label", `${point === "move" ? "Move of the obstacle" : point} ${axis}`);
+      input.addEventListener("input", () => {
+        if (point === "move") this.moves[this.obstacle] = this.fields.move.map(({ value }) => value);
+        this.#edited();
+      });
+      input.addEventListener("keydown", (event) => {
+        const step = { ArrowUp: "", ArrowDown: "-" }[event.key];
+        if (step === undefined) return;
+        event.preventDefault();
+        input.value = addDecimals(input.value || "0", `${step}${event.shiftKey ? "1" : "0.1"}`);
+        input.dispatchEvent(new Event("input"));
+      });
+      byId(`planner-${point}`).append(input);
+      return input;
+    });
+  }
+
+  get state() {
+    const { text, file, folder } = this.scene;
+    return { text, file, folder, moves: this.moves, free: byId("planner-free").checked,
+      start: this.#point("start"), goal: this.#point("goal") };
+  }
+
+  set state({ text, file = "", folder = "", moves = {}, free = false, start, goal }) {
+    if (typeof text !== "string") return;
+    this.#setScene({ text, file, folder });
+    this.moves = moves;
+    byId("planner-free").checked = free;
+    if (start) this.#setPoint("start", start);
+    if (goal) this.#setPoint("goal", goal);
+    this.#showMove();
+    this.#showCommands();
+  }
+
+  // Names of files that may be scenes.
+  offerFiles(files) {
+    const select = byId("planner-file");
+    const before = select.value;
+    const scenes = files.map(({ name }) => name).filter((name) => name.endsWith(".json"));
+    select.replaceChildren(...scenes.map((name) => new Option(name, name)));
+    if (scenes.includes(before)) select.value = before;
+    byId("planner-open").disabled = scenes.length === 0;
+  }
+
+  async openFile(file) {
+    try {
+      const { text } = await ask("read", { name: file });
+      this.#setScene({ text, file, folder: file.includes("/") ? file.slice(0, file.lastIndexOf("/")) : "" });
+      this.changed();
+      await this.compute();
+      this.viewer.reset();
+    } catch (error) {
+      this.#showError(error.message);
+    }
+  }
+
+  #setScene(scene) {
+    this.scene = scene;
+    this.moves = {};
+    let json = {};
+    try {
+      json = JSON.parse(spelledNumbers(scene.text));
+    } catch {
+      // the server says what is wrong with it
+    }
+    this.#setPoint("start", Array.isArray(json.start) ? json.start : ["", "", ""]);
+    this.#setPoint("goal", Array.isArray(json.goal) ? json.goal : ["", "", ""]);
+    const obstacles = Array.isArray(json.obstacles) ? json.obstacles : [];
+    byId("planner-obstacle").replaceChildren(...obstacles.map((shape, i) => new Option(`${i}: ${shape}`.slice(0, 60), i)));
+    this.obstacle = 0;
+    byId("planner-title").textContent = scene.file || "An example; open a scene (.json) of your folder above";
+    this.#showMove();
+    this.#showCommands();
+  }
+
+  #point(name) {
+    const numbers = this.fields[name].map(({ value }) => value.trim());
+    return numbers.some((number) => number === "") ? null : numbers;
+  }
+
+  #setPoint(name, numbers) {
+    this.fields[name].forEach((input, i) => (input.value = numbers[i] ?? ""));
+  }
+
+  #showMove() {
+    byId("planner-obstacle").value = this.obstacle;
+    this.#setPoint("move", this.moves[this.obstacle] ?? ZERO);
+  }
+
+  #edited(delay = PLANNER_DELAY) {
+    this.changed();
+    this.#showCommands();
+    this.computing.soon(() => this.compute(), delay);
+  }
+
+  #movesThatMove() {
+    return Object.fromEntries(Object.entries(this.moves).filter(([, move]) => move.some((x) => x.trim() !== "0")));
+  }
+
+  // With the one that may be dragged, which then is a layer of its own, however many there are.
+  #movesWanted() {
+    const moves = this.#movesThatMove();
+    if (byId("planner-drag").checked) moves[this.obstacle] = this.moves[this.obstacle] ?? ZERO;
+    return moves;
+  }
+
+  async compute() {
+    const { text, folder, start, goal, free } = this.state;
+    let done;
+    try {
+      done = await this.computing.run(this.name, { scene: text, folder, start, goal, free, moves: this.#movesWanted() });
+    } catch (error) {
+      if (!(error instanceof ServerError)) throw error;
+      this.#showError(error.message);
+      return;
+    }
+    if (!done) return;
+    this.#showError("");
+    this.#showAnswer(done);
+  }
+
+  #showAnswer({ report, seconds }) {
+    const { answer } = report;
+    const status = byId("planner-status");
+    status.className = `status ${answer.status}`;
+    const sentences = {
+      path: "There is a path.",
+      infeasible: "Proved: there is no path by translation.",
+      invalid_start: `The start is not free: ${answer.collision?.text ?? ""}`,
+      invalid_goal: `The goal is not free: ${answer.collision?.text ?? ""}`,
+      free_space: "Give a start and a goal.",
+    };
+    status.textContent = sentences[answer.status] ?? answer.status;
+    const rows = [];
+    if (answer.length !== undefined) rows.push(["Length", String(Number(answer.length.toPrecision(8)))]);
+    if (answer.proof) rows.push(["Proof", `start is in component ${answer.proof.start_component}, goal in component ${answer.proof.goal_component}`]);
+    if (answer.components) {
+      rows.push(["Free space", `${answer.components.length} component${answer.components.length === 1 ? "" : "s"}`]);
+      const tight = answer.tight ?? [];
+      const dimensions = tight.map(({ dimension }) => ["points", "lines", "sheets"][dimension]).join(", ");
+      rows.push(["Tight passages", tight.length ? `${tight.length}: ${dimensions}` : "none"]);
+    }
+    rows.push(["Time", `${secondsText(report.op_s)}, ${secondsText(seconds)} until it was here`]);
+    fillTable(byId("planner-measures"), rows);
+    fillNotes(byId("planner-notes"), report.notes);
+    this.sets = answer.components ? ["free space", "robot"] : ["robot"];
+    this.exportForm.offer(this.sets);
+  }
+
+  #showError(text) {
+    byId("planner-error").textContent = text;
+  }
+
+  #showCommands() {
+    const { file, start, goal, free } = this.state;
+    const moved = Object.keys(this.#movesThatMove()).length > 0 || !file;
+    const scene = moved ? "saved-scene.json" : file;
+    const ends = [...(start ? ["--start", start.join(",")] : []), ...(goal ? ["--goal", goal.join(",")] : [])];
+    const python = (point) => (point ? `(${point.map((x) => (/^-?\d+$/.test(x) ? x : JSON.stringify(x))).join(", ")})` : "None");
+    showCommands(byId("planner-commands"), [
+      ["Command line", shellLine("planner", scene, ...ends, ...(free ? ["--tight"] : []))],
+      ["Python", `import nef.planner\nscene = nef.planner.read(${JSON.stringify(scene)})\nplan = scene.plan(${python(start)}, ${python(goal)})`],
+    ]);
+    byId("planner-unsaved").hidden = !moved;
+  }
+
+  // The scene with its ends and obstacles where they are now; beside the one that was opened, since it names files.
+  async #save() {
+    const said = byId("planner-saved");
+    try {
+      const json = JSON.parse(spelledNumbers(this.scene.text));
+      for (const [number, move] of Object.entries(this.#movesThatMove())) {
+        const shape = json.obstacles[number];
+        const set = /\(/.test(shape) ? shape : `file(${JSON.stringify(shape)})`;
+        json.obstacles[number] = `translate(${set}, ${move.join(",")})`;
+      }
+      const { start, goal, folder } = this.state;
+      Object.assign(json, start && { start }, goal && { goal });
+      const name = `${folder ? `${folder}/` : ""}${byId("planner-save-name").value}.json`;
+      await ask("write", { name, text: `${JSON.stringify(json, null, 2)}\n`, overwrite: byId("planner-overwrite").checked });
+      said.className = "";
+      said.textContent = `${name} written`;
+    } catch (error) {
+      said.className = "error";
+      said.textContent = error.message;
+    }
+  }
+
+  // What is held at a place of the view: the robot at an end; with the box ticked, the obstacle that is chosen; null
+  // elsewhere. It moves in the plane of the two coordinates that the eye looks across, by decimals that are no finer than
+  // the screen.
+  grab(x, y) {
+    const { viewer } = this;
+    const wanted = { robot: "start", "robot at the goal": "goal" };
+    if (byId("planner-drag").checked) wanted[`obstacle ${this.obstacle}`] = "move";
+    // What is behind something else may be meant: obstacles are seen through.
+    const hit = viewer.picker.facets(x, y).find(({ layer }) => viewer.views[layer].layer.name in wanted);
+    if (!hit) return null;
+    const { name } = viewer.views[hit.layer].layer;
+    const field = wanted[name];
+    if (field !== "move" && !this.#point(field)) return null;
+    const before = this.fields[field].map(({ value }) => value || "0");
+    const plane = viewer.dragPlane(x, y, hit.depth);
+    const begin = plane.at(x, y);
+    return {
+      drag: (toX, toY) => {
+        const now = plane.at(toX, toY);
+        if (!now) return;
+        const numbers = before.map((number, i) => (i === plane.axis ? number
+          : addDecimals(number, decimalNear(now[i] - begin[i], plane.pixel))));
+        this.#setPoint(field, numbers);
+        if (field === "move") this.moves[this.obstacle] = numbers;
+        const view = viewer.views.find(({ layer }) => layer.name === name);
+        if (view && !view.layer.motion) view.group.position.set(...numbers.map((number, i) => approximately(number) - approximately(before[i])));
+        viewer.requestDraw();
+        this.#edited(0);
+      },
+      drop: () => {},
+    };
+  }
+}

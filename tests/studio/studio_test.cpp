@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What pages ask, without a server in between.
+#include "apps/studio/studio.h"
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <fstream>
+#include <thread>
+
+#include "nef/construct/construct.h"
+#include "nef/io/polyhedron_file.h"
+#include "tests/support/paths.h"
+#include "tests/support/temporary_folder.h"
+
+namespace nef::studio {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Place : public nef::test::TemporaryFolder {
+ public:
+  Place() : root(fs::path(path()) / "root") {
+    fs::create_directories(root);
+    write_polyhedron((root / "cube.off").string(), make_box({0, 0, 0}, {1, 1, 1}));
+    write_polyhedron((fs::path(path()) / "outside.off").string(), make_box({0, 0, 0}, {1, 1, 1}));
+    fs::create_symlink("../outside.off", root / "link.off");
+  }
+  fs::path root;
+};
+
+Json answer(Studio& studio, const std::string& name, Json request, int status = 200) {
+  if (request.is_null()) request = Json::object();
+  request.emplace("page", "a");
+  const WebReply reply = studio.answer({"POST", "/api/" + name, request.dump()});
+  INFO(reply.body.substr(0, 300));
+  CHECK(reply.status == status);
+  return Json::parse(reply.body, nullptr, false);
+}
+
+// The report of a computation, and the scene's JSON.
+struct Computed {
+  Json report;
+  Json scene;
+};
+std::size_t length_at(const std::string& bytes, std::size_t at) {
+  std::size_t length = 0;
+  for (unsigned i = 0; i < 4; ++i)
+    length |= static_cast<std::size_t>(static_cast<unsigned char>(bytes[at + i])) << 8 * i;
+  return length;
+}
+Computed compute(Studio& studio, const Json& request) {
+  const WebReply reply = studio.answer({"POST", "/api/compute", request.dump()});
+  INFO(reply.body.substr(0, 300));
+  REQUIRE(reply.status == 200);
+  const std::size_t report = length_at(reply.body, 0);
+  const std::size_t scene = length_at(reply.body, 4 + report);
+  return {Json::parse(reply.body.substr(4, report)), Json::parse(reply.body.substr(8 + report, scene))};
+}
+
+TEST_CASE("Sets: an expression gives measures, a scene and files") {
+  const Place place;
+  Studio studio({.root = place.root}, [] {});
+  const Computed computed =
+      compute(studio, {{"page", "a"}, {"panel", "sets"}, {"text", "file(\"cube.off\") + box(2,0,0, 3,1,1/2)"}});
+  CHECK(computed.report["result"]["volume"] == "3/2");
+  CHECK(computed.scene["layers"].size() == 1);
+  CHECK(computed.scene["layers"][0]["facets"]["begin"][2] == 13);
+  const Json written = answer(studio, "export", {{"set", "result"}, {"name", "out.off"}});
+  CHECK(written["bytes"] == fs::file_size(place.root / "out.off"));
+  CHECK(equal(read_polyhedron((place.root / "out.off").string()),
+              unite(make_box({0, 0, 0}, {1, 1, 1}), make_box({2, 0, 0}, {3, 1, Rational(1, 2)}))));
+  answer(studio, "export", {{"set", "result"}, {"name", "out.off"}}, 422);
+  answer(studio, "export", {{"set", "result"}, {"name", "out.off"}, {"overwrite", true}});
+  answer(studio, "export", {{"set", "result"}, {"name", "../out.off"}}, 422);
+  answer(studio, "export", {{"set", "none"}, {"name", "new.off"}}, 422);
+  answer(studio, "export", {{"set", "result"}, {"name", "new.exe"}}, 422);
+  CHECK(!fs::exists(place.root / "new.exe"));
+}
+
+TEST_CASE("Sets: what is wrong has its place") {
+  const Place place;
+  Studio studio({.root = place.root}, [] {});
+  Json error = answer(studio, "compute", {{"panel", "sets"}, {"text", "box(0,0,0, 1,1,1) + bx"}}, 422);
+  CHECK(error["field"] == "text");
+  CHECK(error["offset"] == 20);
+  error = answer(studio, "compute", {{"panel", "sets"}, {"text", " "}}, 422);
+  CHECK(error["offset"] == 0);
+  for (const std::string file : {"../outside.off", "link.off", "/etc/passwd", "none.off"}) {
+    error = answer(studio, "compute", {{"panel", "sets"}, {"text", "file(\"" + file + "\")"}}, 422);
+    CHECK(error["error"].get<std::string>().find(file) != std::string::npos);
+  }
+  answer(studio, "compute", {{"panel", "none"}, {"text", "everything"}}, 422);
+  answer(studio, "compute", {{"panel", "sets"}, {"page", "../x"}, {"text", "everything"}}, 422);
+  CHECK(studio.answer({"POST", "/api/compute", "[1"}).status == 422);
+  CHECK(studio.answer({"POST", "/api/compute", std::string(1000000, '[')}).status == 422);
+  CHECK(studio.answer({"POST", "/api/none", "{}"}).status == 404);
+  CHECK(studio.answer({"GET", "/etc/passwd", ""}).status == 404);
+}
+
+TEST_CASE("Sums: sums, offsets between bounds, penetration") {
+  const Place place;
+  Studio studio({.root = place.root}, [] {});
+  Json request{
+      {"page", "a"},     {"panel", "sums"}, {"a", "box(0,0,0, 2,2,2)"}, {"b", "box(0,0,0, 1,1,1)"}, {"kind", "sum"},
+      {"radius", "1/2"}, {"splits", 2}};
+  CHECK(compute(studio, request).report["result"]["volume"] == "27");
+  request["kind"] = "erosion";
+  CHECK(compute(studio, request).report["result"]["volume"] == "1");
+  request["kind"] = "opening";
+  CHECK(compute(studio, request).report["result"]["volume"] == "8");
+  request["kind"] = "closing";
+  CHECK(compute(studio, request).report["result"]["volume"] == "8");
+  request["kind"] = "offset";
+  const Json offset = compute(studio, request).report;
+  // The rounded cube: 8 + 6 * 4 / 2 + 12 * 2 * pi / 16 + 4 pi / 24.
+  const double exact = 8 + 12 + 12 * 2 * 3.14159265358979 / 16 + 4 * 3.14159265358979 / 24;
+  CHECK(offset["result"]["volume_double"].get<double>() < exact);
+  CHECK(offset["outer"]["volume_double"].get<double>() > exact);
+  CHECK(offset["error"].get<double>() > 0);
+  request["kind"] = "penetration";
+  const Json penetration = compute(studio, request).report;
+  CHECK(penetration["kind"] == "overlapping");
+  CHECK(penetration["squared_length"] == "1");
+  request["kind"] = "offset";
+  request["radius"] = "much";
+  CHECK(answer(studio, "compute", request, 422)["field"] == "radius");
+  request["radius"] = "1";
+  request["splits"] = 1000;
+  CHECK(answer(studio, "compute", request, 422)["field"] == "splits");
+  request["kind"] = "sum";
+  request["b"] = "box(";
+  CHECK(answer(studio, "compute", request, 422)["field"] == "b");
+}
+
+TEST_CASE("Planner: a tight hole, the hole moved away, and files of the scene") {
+  const Place place;
+  Studio studio({.root = place.root}, [] {});
+  const std::string scene = R"~({"robot": "file(\"cube.off\")",
+    "obstacles": ["box(-1,-1,-1, 10,4,4) - interior(box(0,0,0, 9,3,3))", "box(4,0,0, 5,3,3) - box(4,1,1, 5,2,2)"],
+    "start": [1, "1/2", "1/2"], "goal": [7, "3/2", "3/2"]})~";
+  Json request{{"page", "a"}, {"panel", "planner"}, {"scene", scene}, {"folder", ""}, {"free", true}};
+  Json report = compute(studio, request).report;
+  CHECK(report["answer"]["status"] == "path");
+  CHECK(report["answer"]["tight"].size() == 1);
+  CHECK(report["start"] == Json({"1", "1/2", "1/2"}));
+  // Pushed aside by a half, the wall leaves a gap of that width, and the hole is as it was; pushed by one, no less does
+  // the robot fit through the gap than through the hole; pushed into the room's floor by a half, the hole is cut.
+  request["moves"] = {{"1", {"0", "1/2", "0"}}};
+  report = compute(studio, request).report;
+  CHECK(report["answer"]["status"] == "path");
+  CHECK(report["answer"]["tight"].size() == 1);
+  request["moves"] = {{"1", {"0", "1", "0"}}};
+  CHECK(compute(studio, request).report["answer"]["tight"].size() == 2);
+  request["moves"] = {{"1", {"0", "0", "-1.5"}}};
+  request["moves"]["1"][2] = "-1.5";
+  CHECK(compute(studio, request).report["answer"]["status"] == "path");  // over the wall
+  request.erase("moves");
+  request["start"] = {"3.5", "0", "0"};
+  CHECK(compute(studio, request).report["answer"]["status"] == "invalid_start");
+  request["start"] = {"1", "x", "1"};
+  CHECK(answer(studio, "compute", request, 422)["field"] == "start");
+  request["start"] = nullptr;
+  request["moves"] = {{"7", {"0", "0", "0"}}};
+  answer(studio, "compute", request, 422);
+  request.erase("moves");
+  for (const std::string file : {"../outside.off", "link.off"}) {
+    for (const std::string& shape : {file, "file(\"" + file + "\")"}) {
+      request["scene"] = Json({{"robot", "box(0,0,0, 1,1,1)"}, {"obstacles", {shape}}}).dump();
+      const Json error = answer(studio, "compute", request, 422);
+      CHECK(error["error"].get<std::string>().find("below the folder") != std::string::npos);
+    }
+  }
+  request["scene"] = R"~({"robot": "outside.off", "obstacles": ["box(5,5,5, 6,6,6)"]})~";
+  request["folder"] = "..";
+  CHECK(answer(studio, "compute", request, 422)["error"].get<std::string>().find("below the folder") !=
+        std::string::npos);
+}
+
+TEST_CASE("Planner: obstacles that rest are kept, and files are read again when they have changed") {
+  const Place place;
+  Studio studio({.root = place.root}, [] {});
+  Json obstacles = Json::array({"cube.off"});
+  for (int i = 1; i < 70; ++i) {
+    const std::string x = std::to_string(3 * i);
+    obstacles.push_back("box(" + x + ",0,0, " + x + ".5,1,1)");
+  }
+  const Json scene{{"robot", "box(0,0,0, 1,1,1)"}, {"obstacles", obstacles}, {"start", {0, 5, 0}}, {"goal", {9, 5, 0}}};
+  Json request{{"page", "a"}, {"panel", "planner"}, {"scene", scene.dump()}, {"folder", ""}, {"moves", Json::object()}};
+  const auto facets_of = [](const Json& drawn, const std::string& name) {
+    for (const Json& layer : drawn["layers"]) {
+      if (layer["name"] == name) return layer["facets"]["index"][2].get<std::size_t>();
+    }
+    return std::size_t{0};
+  };
+  CHECK(facets_of(compute(studio, request).scene, "obstacles") == 6 * 70);
+  for (const char* y : {"5", "0", "-5"}) {
+    request["moves"] = {{"7", {"0", y, "0"}}};
+    const Computed moved = compute(studio, request);
+    CHECK(facets_of(moved.scene, "obstacles") == 6 * 69);
+    CHECK(facets_of(moved.scene, "obstacle 7") == 6);
+    CHECK(moved.report["answer"]["status"] == "path");
+  }
+  request["moves"] = {{"7", {"-21", "5", "0"}}};
+  CHECK(compute(studio, request).report["answer"]["status"] == "invalid_start");
+  request["moves"] = Json::object();
+  CHECK(compute(studio, request).report["answer"]["status"] == "path");
+  write_polyhedron((place.root / "cube.off").string(), make_box({0, 0, 0}, {1, 6, 1}));
+  fs::last_write_time(place.root / "cube.off", fs::file_time_type::clock::now() + std::chrono::seconds(5));
+  CHECK(compute(studio, request).report["answer"]["status"] == "invalid_start");
+}
+
+TEST_CASE("Hulls: views switched off, and images of the scene") {
+  const Place place;
+  fs::copy(fs::path(source_folder()) / "data/visual_hull/eight", place.root, fs::copy_options::recursive);
+  Studio studio({.root = place.root}, [] {});
+  Json request{{"page", "a"},     {"panel", "hulls"}, {"scene", "eight.json"}, {"off", Json::array()},
+               {"simplify", "2"}, {"threshold", ""},  {"residuals", true}};
+  Computed all = compute(studio, request);
+  CHECK(all.report["views"].size() == 12);
+  CHECK(all.report["views"][3]["inside"] == true);
+  CHECK(all.report["views"][3]["residual"].get<double>() < 0.2);
+  const double volume = all.report["result"]["volume_double"];
+  CHECK(volume > 0);
+  request["off"] = {0, 5};
+  const Computed some = compute(studio, request);
+  CHECK(some.report["views"][5]["on"] == false);
+  CHECK(some.report["views"].size() == 12);
+  CHECK(some.report["result"]["volume_double"].get<double>() > volume);
+  CHECK(some.scene["layers"].size() == 2);  // the hull, and cameras with their outlines
+  request["off"] = {12};
+  answer(studio, "compute", request, 422);
+  request["off"] = Json::array();
+  request["simplify"] = "much";
+  CHECK(answer(studio, "compute", request, 422)["field"] == "simplify");
+  request["simplify"] = "0";
+  request["threshold"] = "bright";
+  answer(studio, "compute", request, 422);
+  request["threshold"] = "";
+  // An image that is not below the root.
+  fs::rename(place.root / "eight_03.png", place.path() / "eight_03.png");
+  fs::create_symlink("../eight_03.png", place.root / "eight_03.png");
+  const Json error = answer(studio, "compute", request, 422);
+  CHECK(error["error"].get<std::string>().find("below the folder") != std::string::npos);
+}
+
+TEST_CASE("The state is kept in a file, and no page overwrites what another one has saved") {
+  const Place place;
+  Studio studio({.root = place.root}, [] {});
+  Json begin = answer(studio, "start", {});
+  CHECK(begin["state"].is_null());
+  CHECK(begin["state_file"] == "studio.nefstudio");
+  CHECK(begin["language"]["functions"].size() > 20);
+  const Json kept = answer(studio, "state", {{"text", "{\"nefstudio\": 1}"}, {"revision", begin["revision"]}});
+  answer(studio, "state", {{"text", "{}"}, {"revision", begin["revision"]}}, 422);
+  Studio again({.root = place.root}, [] {});
+  CHECK(answer(again, "start", {})["state"] == "{\"nefstudio\": 1}");
+  answer(studio, "state", {{"text", "{}"}, {"revision", kept["revision"]}});
+  answer(studio, "state", {{"text", "{\"b\": 2}"}, {"revision", 0}, {"overwrite", true}});
+  CHECK(answer(studio, "start", {})["state"] == "{\"b\": 2}");
+  Studio named({.root = place.root, .files = {"cube.off", "studio.nefstudio"}}, [] {});
+  CHECK(answer(named, "start", {})["files"] == Json({"cube.off"}));
+  CHECK_THROWS_AS(Studio({.root = place.root, .files = {"../outside.off"}}, [] {}), InputError);
+}
+
+TEST_CASE("Text files and uploads") {
+  const Place place;
+  bool stopped = false;
+  Studio studio({.root = place.root}, [&stopped] { stopped = true; });
+  answer(studio, "write", {{"name", "scene.json"}, {"text", "{}"}});
+  answer(studio, "write", {{"name", "scene.json"}, {"text", "[]"}}, 422);
+  CHECK(answer(studio, "read", {{"name", "scene.json"}})["text"] == "{}");
+  answer(studio, "write", {{"name", "run.sh"}, {"text", "x"}}, 422);
+  answer(studio, "write", {{"name", "../scene.json"}, {"text", "x"}}, 422);
+  answer(studio, "read", {{"name", "cube.off"}}, 422);
+  const auto upload = [&studio](const std::string& body) {
+    return studio.answer({"POST", "/api/upload", body}).status;
+  };
+  CHECK(upload("new.off\nOFF\n") == 200);
+  CHECK(upload("new.off\nOFF\n") == 200);
+  CHECK(upload("new.off\nother") == 422);
+  CHECK(upload("../new.off\nx") == 422);
+  CHECK(upload("new.exe\nx") == 422);
+  CHECK(upload("no line") == 422);
+  CHECK(answer(studio, "files", {})["files"].size() == 3);
+  CHECK(!stopped);
+  answer(studio, "stop", {});
+  CHECK(stopped);
+}
+
+TEST_CASE("A computation is cancelled while it runs") {
+  const Place place;
+  Studio studio({.root = place.root}, [] {});
+  int status = 0;
+  std::thread computing([&] {
+    status = studio
+                 .answer({"POST", "/api/compute",
+                          R"~({"page": "a", "panel": "sets", "text": "minkowski(sphere(1, 60), sphere(1, 50))"})~"})
+                 .status;
+  });
+  while (!answer(studio, "progress", {})["running"].get<bool>()) std::this_thread::yield();
+  answer(studio, "cancel", {});
+  computing.join();
+  CHECK(status == 409);
+  CHECK(answer(studio, "progress", {})["running"] == false);
+}
+
+}  // namespace
+}  // namespace nef::studio

@@ -1,0 +1,419 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// node studio_test.mjs NEF DATA FOLDER [WORD]: uses the studio in a headless Chromium as people do, by mouse and by keyboard.
+// Leaves screenshots in FOLDER. With WORD only the tests that have it in their names. Exit code 77 and a word if something that is needed is not installed.
+import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
+import { copyFileSync, cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { join, resolve } from "node:path";
+import { addDecimals, decimalNear, stepNumber } from "../../apps/studio/web/exact.js";
+import { Browser, findChromium } from "../view/browser/chromium.mjs";
+
+const [nef, data, folderArgument, only = ""] = process.argv.slice(2);
+const folder = resolve(folderArgument);
+const root = join(folder, "root");
+
+function skip(reason) {
+  console.log(`skipped: ${reason}`);
+  process.exit(77);
+}
+
+// A running server; its address is the first line that it prints.
+async function startServer(...options) {
+  const child = spawn(nef, ["studio", "--no-browser", "--root", root, ...options], { stdio: ["ignore", "pipe", "pipe"] });
+  let errors = "";
+  child.stderr.on("data", (bytes) => (errors += bytes));
+  const address = await new Promise((done) => {
+    child.stdout.once("data", (bytes) => done(bytes.toString().trim()));
+    child.once("exit", () => done(null));
+  });
+  if (address === null) {
+    if (/not built|not part of this build/.test(errors)) skip(errors.trim());
+    throw new Error(errors);
+  }
+  const ended = new Promise((done) => child.once("exit", done));
+  return { address, child, end: async (signal = "SIGTERM") => {
+    child.kill(signal);
+    return ended;
+  } };
+}
+
+const text = (selector) => `document.querySelector(${JSON.stringify(selector)}).textContent`;
+const value = (selector) => `document.querySelector(${JSON.stringify(selector)}).value`;
+const place = (selector) => `(({ x, y, width, height }) => [x + width / 2, y + height / 2])(document.querySelector(${JSON.stringify(selector)}).getBoundingClientRect())`;
+const hiddenNow = (selector) => `document.querySelector(${JSON.stringify(selector)}).hidden`;
+const READY = "window.nefStudio?.ready || /cannot/.test(document.querySelector('#message')?.textContent)";
+const AREA = "#sets-editor textarea";
+
+async function openStudio(browser, address, width = 1280, height = 800) {
+  await browser.open(address, width, height, READY);
+  assert.equal(await browser.evaluate(text("#message")), "");
+}
+
+async function click(browser, selector) {
+  await browser.evaluate(`document.querySelector(${JSON.stringify(selector)}).scrollIntoView({ block: "nearest" })`);
+  await browser.click(...(await browser.evaluate(place(selector))));
+}
+
+async function focus(browser, selector) {
+  await browser.evaluate(`document.querySelector(${JSON.stringify(selector)}).focus()`);
+}
+
+// The page of a session in front, where it is drawn.
+async function turnTo(browser, session) {
+  browser.session = session;
+  await browser.send("Page.bringToFront");
+}
+
+// Selects all of a field and types something else.
+async function type(browser, selector, words) {
+  await focus(browser, selector);
+  await browser.evaluate("document.activeElement.select()");
+  await browser.type(words);
+}
+
+const measure = (table, name) => `[...document.querySelectorAll("#${table} tr")].find((row) => row.cells[0].textContent === ${JSON.stringify(name)})?.cells[1].textContent`;
+
+const countPixels = (test) => `(() => {
+  const view = window.nefViewer;
+  view.draw();
+  const copy = Object.assign(document.createElement("canvas"), { width: view.canvas.width, height: view.canvas.height });
+  const context = copy.getContext("2d");
+  context.drawImage(view.canvas, 0, 0);
+  const { data } = context.getImageData(0, 0, copy.width, copy.height);
+  const test = ${test};
+  let count = 0;
+  for (let i = 0; i < data.length; i += 4) count += test(data[i], data[i + 1], data[i + 2]) ? 1 : 0;
+  return count;
+})()`;
+const BLUE = "(r, g, b) => b > 1.25 * r && b > 90";
+
+// The pictures that people should look at, by name.
+async function picture(browser, name) {
+  await browser.frame();
+  writeFileSync(join(folder, `${name}.png`), await browser.screenshot());
+}
+
+let server = null;
+
+const tests = {
+  async "decimals are added exactly"() {
+    assert.equal(addDecimals("0.1", "0.2"), "0.3");
+    assert.equal(addDecimals("-1", "0.95"), "-0.05");
+    assert.equal(addDecimals("123456789012345678901234567890", "-0.5"), "123456789012345678901234567889.5");
+    assert.equal(addDecimals("1/2", "0.1"), "0.6");
+    assert.equal(decimalNear(1.23456, 0.01), "1.23");
+    assert.equal(decimalNear(-0.001, 0.1), "0");
+    assert.deepEqual(stepNumber("box(0,-1,1.50)", 7, true), { begin: 6, end: 8, number: "0" });
+    assert.deepEqual(stepNumber("a - 3", 5, false), { begin: 4, end: 5, number: "2" });
+    assert.deepEqual(stepNumber("ball(0.25, 3)", 9, true), { begin: 5, end: 9, number: "0.26" });
+    assert.equal(stepNumber("h2", 2, true), null);
+  },
+
+  async "sets: a text becomes a set, with its measures"(browser) {
+    await openStudio(browser, server.address);
+    await browser.until(measure("sets-measures", "Volume"));
+    await picture(browser, "sets_1280");
+    await type(browser, AREA, "box(0,0,0, 2,2,2) - box(1,1,1, 2,2,2)");
+    await browser.until(`${measure("sets-measures", "Volume")} === "7"`);
+    assert.match(await browser.evaluate(measure("sets-measures", "Items")), /^14 vertices, 21 edges, 9 facets/);
+    assert.ok((await browser.evaluate(countPixels(BLUE))) > 20000, "the solid is seen");
+    assert.match(await browser.evaluate(text("#sets-commands")), /nef eval 'box\(0,0,0, 2,2,2\) - box\(1,1,1, 2,2,2\)' -o result\.nef/);
+  },
+
+  async "sets: what is wrong is underlined, words are completed, numbers stepped"(browser) {
+    await type(browser, AREA, "box(0,0,0, 2,2,2) + bxo(1,1,1, 3,3,3)");
+    await browser.until(`${text("#sets-editor .error")} !== ""`);
+    assert.match(await browser.evaluate(text("#sets-editor .error")), /column 21.*did you mean 'box'/);
+    assert.equal(await browser.evaluate(text("#sets-editor .wrong")), "bxo");
+    await picture(browser, "sets_error");
+    assert.equal(await browser.evaluate(measure("sets-measures", "Volume")), "7", "the last result stays");
+    await type(browser, AREA, "cyl");
+    assert.equal(await browser.evaluate(hiddenNow("#sets-editor .words")), false);
+    await picture(browser, "sets_words");
+    await browser.key("Tab");
+    assert.equal(await browser.evaluate(value(AREA)), "cylinder(");
+    await browser.type("2, 1)");
+    await browser.key("Escape");
+    await browser.until(`${measure("sets-measures", "Items")}?.startsWith("64 vertices")`);
+    await browser.evaluate(`document.querySelector("${AREA}").setSelectionRange(10, 10)`);
+    await browser.key("ArrowUp", { modifiers: 1 });
+    assert.equal(await browser.evaluate(value(AREA)), "cylinder(3, 1)");
+    await browser.until(`${measure("sets-measures", "Volume")}?.includes("9.3")`);
+  },
+
+  async "sets: undo and redo go through the versions"(browser) {
+    await type(browser, AREA, "box(0,0,0, 5,1,1)");
+    await browser.until(`${measure("sets-measures", "Volume")} === "5"`);
+    await type(browser, AREA, "box(0,0,0, 6,1,1)");
+    await browser.until(`${measure("sets-measures", "Volume")} === "6"`);
+    await click(browser, "#sets-undo");
+    await browser.until(`${measure("sets-measures", "Volume")} === "5"`);
+    assert.equal(await browser.evaluate(value(AREA)), "box(0,0,0, 5,1,1)");
+    await focus(browser, "#sets-redo");
+    await browser.key("Enter", { text: "\r" });
+    await browser.until(`${measure("sets-measures", "Volume")} === "6"`);
+  },
+
+  async "a click in the view shows what it hits, with its sphere map"(browser) {
+    await type(browser, AREA, "interior(box(0,0,0, 1,1,1)) + point(1,0,1)");
+    await browser.until(`${measure("sets-measures", "It is")}?.includes("not closed")`);
+    const corner = await browser.evaluate('nefViewer.page.layers[0].exact.points().indexOf("1 0 1")');
+    const [x, y] = await browser.evaluate(`(() => {
+      const [x, y] = nefViewer.picker.project(nefViewer.picker.vertexPoint(nefViewer.views[0], ${corner}));
+      const box = nefViewer.canvas.getBoundingClientRect();
+      return [box.x + x, box.y + y];
+    })()`);
+    await browser.click(x, y);
+    assert.match(await browser.evaluate(text("#item-text")), /^Vertex \d+.*x1y0z1sphere map3 svertices, 3 sedges, 0 sloops, 2 sfaces/);
+    await picture(browser, "sets_vertex");
+    await browser.evaluate("nefViewer.select(null)");
+  },
+
+  async "sets: files are added, uploaded and written, by the keyboard"(browser) {
+    await browser.evaluate('document.querySelector("#file").value = "rotor.off"');
+    await click(browser, "#file-insert");
+    await browser.until(`${value(AREA)}.includes('file("rotor.off")')`);
+    const { root: page } = await browser.send("DOM.getDocument");
+    const { nodeId } = await browser.send("DOM.querySelector", { nodeId: page.nodeId, selector: "#file-pick" });
+    await browser.send("DOM.setFileInputFiles", { nodeId, files: [join(folder, "away", "cross_quad.off")] });
+    await browser.until(`${value(AREA)}.includes('file("cross_quad.off")')`);
+    assert.ok(existsSync(join(root, "cross_quad.off")));
+    await type(browser, AREA, 'file("hole.off")');
+    await browser.until("!document.querySelector('#export').hidden");
+    await browser.until("document.querySelector('#progress').dataset.running === 'false'");
+    await type(browser, "#export-name", "written");
+    await browser.evaluate('document.querySelector("#export-format").value = "stl"');
+    await browser.key("Enter", { text: "\r" });
+    await browser.until(`${text("#export-said")}.includes("bytes written")`);
+    assert.ok(readFileSync(join(root, "written.stl")).length > 84);
+    await browser.key("Enter", { text: "\r" });
+    await browser.until(`${text("#export-said")}.includes("there already")`);
+    await picture(browser, "sets_export");
+  },
+
+  async "sums: operands, an offset by the slider, the tabs by the keyboard"(browser) {
+    await focus(browser, "#tabs [data-panel=sets]");
+    await browser.key("ArrowRight");
+    await browser.until(measure("sums-measures", "Volume"));
+    await type(browser, "#sums-a textarea", "box(0,0,0, 2,2,2)");
+    await type(browser, "#sums-b textarea", "box(0,0,0, 1,1,1)");
+    await browser.until(`${measure("sums-measures", "Volume")} === "27"`);
+    await picture(browser, "sums_1280");
+    await browser.evaluate(`(() => { const kind = document.querySelector("#sums-kind"); kind.value = "offset"; kind.dispatchEvent(new Event("change")); })()`);
+    await browser.until(measure("sums-measures", "Radius is off by at most"));
+    const [x, y] = await browser.evaluate(place("#sums-slider"));
+    await browser.click(x + 60, y);
+    const radius = await browser.evaluate(value("#sums-radius"));
+    assert.ok(Number(radius) > 0.3, radius);
+    // Between the volumes of the inner and the outer ball's offset lies that of the round one.
+    const r = Number(radius);
+    const round = 8 + 24 * r + 6 * Math.PI * r * r + (4 / 3) * Math.PI * r ** 3;
+    const volume = (side) => `Number(${measure("sums-measures", `Volume, ${side}`)}?.split("\u2248").pop().split("\u00b1")[0])`;
+    await browser.until(`${volume("inner")} < ${round} && ${round} < ${volume("outer")}`);
+    await picture(browser, "sums_offset");
+    await type(browser, "#sums-a textarea", "box(0,0");
+    await browser.until(`${text("#sums-a .error")} !== ""`);
+  },
+
+  async "hulls: views switched off and on, outlines by the slider"(browser) {
+    await click(browser, "#tabs [data-panel=hulls]");
+    await browser.evaluate('document.querySelector("#hulls-file").value = "eight.json"');
+    await click(browser, "#hulls-open");
+    await browser.until(measure("hulls-measures", "Volume"));
+    const volume = `parseFloat(${measure("hulls-measures", "Volume")}.split("\u2248").pop())`;
+    const all = await browser.evaluate(volume);
+    await browser.evaluate('document.querySelector("#hulls-residuals").click()');
+    await browser.until('/%/.test(document.querySelector("#hulls-views .residual")?.textContent)');
+    await picture(browser, "hulls_1280");
+    await browser.evaluate('document.querySelector("#hulls-residuals").click()');
+    await click(browser, "#hulls-views li:nth-child(2) input");
+    await browser.until(`${volume} > ${all}`);
+    await focus(browser, "#hulls-views li:nth-child(3) input");
+    const some = await browser.evaluate(volume);
+    await browser.key(" ");
+    await browser.until(`${volume} > ${some}`);
+    assert.equal(await browser.evaluate('document.querySelector("#hulls-views li:nth-child(3) input").checked'), false);
+    await click(browser, "#hulls-all");
+    await browser.until(`${volume} === ${all}`);
+    const [x, y] = await browser.evaluate(place("#hulls-slider"));
+    await browser.click(x, y);
+    await browser.until(`${volume} !== ${all}`);
+    assert.match(await browser.evaluate(text("#hulls-commands")), /visual_hull eight\.json -o hull\.nef --simplify 4/);
+  },
+
+  async "planner: a scene of a file, the robot dragged, an obstacle moved"(browser) {
+    await click(browser, "#tabs [data-panel=planner]");
+    await browser.until(`${text("#planner-status")} === "There is a path."`);
+    await browser.evaluate('document.querySelector("#planner-file").value = "s1_tight_hole.json"');
+    await click(browser, "#planner-open");
+    await browser.until(`${text("#planner-title")} === "s1_tight_hole.json"`);
+    await browser.evaluate('document.querySelector("#planner-free").click()');
+    await browser.until(`${measure("planner-measures", "Tight passages")}?.startsWith("1: lines")`);
+    await picture(browser, "planner_1280");
+    // By the keyboard: the wall aside by a half; the hole is another one then, but there is still one.
+    await browser.evaluate('(() => { const list = document.querySelector("#planner-obstacle"); list.value = "1"; list.dispatchEvent(new Event("change")); })()');
+    await focus(browser, "#planner-move-y");
+    for (let i = 0; i < 5; ++i) await browser.key("ArrowUp");
+    assert.equal(await browser.evaluate(value("#planner-move-y")), "0.5");
+    await browser.key("ArrowDown");
+    assert.equal(await browser.evaluate(value("#planner-move-y")), "0.4");
+    await browser.until(`${text("#planner-status")} === "There is a path."`);
+    // By the mouse: the robot from its start into the floor.
+    const before = await browser.evaluate(value("#planner-start-x"));
+    const [x, y] = await browser.evaluate(`(() => {
+      const layer = nefViewer.views.findIndex(({ layer }) => layer.name === "robot");
+      const box = nefViewer.canvas.getBoundingClientRect();
+      for (let x = 10; x < box.width; x += 6) for (let y = 10; y < box.height; y += 6) {
+        if (document.elementFromPoint(box.x + x, box.y + y) === nefViewer.canvas && nefViewer.picker.facets(x, y).some((hit) => hit.layer === layer)) return [box.x + x + 3, box.y + y + 3];
+      }
+    })()`);
+    await browser.drag([x, y], [x - 90, y]);
+    const after = await browser.evaluate(value("#planner-start-x"));
+    assert.notEqual(after, before);
+    assert.match(after, /^-?\d+(\.\d+)?$/);
+    await browser.until(`document.querySelector("#planner-status").className.includes("invalid_start") || ${text("#planner-status")} === "There is a path."`);
+    for (const [axis, number] of [["x", "4"], ["y", "1/2"], ["z", "1/2"]]) await type(browser, `#planner-start-${axis}`, number);
+    await browser.until(`document.querySelector("#planner-status").className === "status invalid_start"`);
+    await picture(browser, "planner_invalid");
+    await type(browser, "#planner-start-x", "1");
+    await browser.until(`${text("#planner-status")} === "There is a path."`);
+    assert.match(await browser.evaluate(text("#planner-commands")), /planner saved-scene\.json --start 1,1\/2,1\/2 /);
+    await browser.evaluate(`document.querySelectorAll("#planner details").forEach((one) => (one.open = true))`);
+    await click(browser, "#planner-save");
+    await browser.until(`${text("#planner-saved")} === "saved-scene.json written"`);
+    const saved = JSON.parse(readFileSync(join(root, "saved-scene.json"), "utf8"));
+    assert.match(saved.obstacles[1], /^translate\(.*, 0,0\.4,0\)$/);
+    // The path is in the picture, and the motion can be played.
+    assert.equal(await browser.evaluate(hiddenNow("#time")), false);
+  },
+
+  async "a computation is cancelled in the middle"(browser) {
+    await click(browser, "#tabs [data-panel=sets]");
+    await type(browser, AREA, "minkowski(sphere(1, 90), sphere(1, 80))");
+    await browser.until("!document.querySelector('#progress').hidden");
+    await browser.until(`/^[a-z ]+, \\d+\\.\\d s$/i.test(${text("#progress-text")})`);
+    await picture(browser, "progress");
+    await click(browser, "#cancel");
+    await browser.until("document.querySelector('#progress').hidden", 20);
+    await type(browser, AREA, "box(0,0,0, 3,1,1)");
+    await browser.until(`${measure("sets-measures", "Volume")} === "3"`);
+  },
+
+  async "two pages compute at once, and do not overwrite each other's state"(browser) {
+    await openStudio(browser, server.address, 900, 700);
+    const first = browser.session;
+    await openStudio(browser, server.address, 900, 700);
+    const second = browser.session;
+    await type(browser, AREA, "minkowski(sphere(1, 90), sphere(1, 80))");
+    await browser.until("!document.querySelector('#progress').hidden");
+    await turnTo(browser, first);
+    await type(browser, AREA, "box(0,0,0, 4,1,1)");
+    await browser.until(`${measure("sets-measures", "Volume")} === "4"`);
+    await browser.until(`!${hiddenNow("#conflict")} || ${text("#kept")} === "saved"`);
+    await turnTo(browser, second);
+    assert.equal(await browser.evaluate(hiddenNow("#progress")), false, "it computes still");
+    await click(browser, "#cancel");
+    await browser.until("document.querySelector('#progress').hidden", 20);
+    await type(browser, AREA, "box(0,0,0, 8,1,1)");
+    await browser.until(`!${hiddenNow("#conflict")} || ${text("#kept")} === "saved"`);
+    const conflicts = [];
+    for (const session of [first, second]) {
+      await turnTo(browser, session);
+      conflicts.push(!(await browser.evaluate(hiddenNow("#conflict"))));
+    }
+    assert.ok(conflicts.includes(true), "one of them is told that the other one has saved");
+    await turnTo(browser, second);
+    await browser.until(`${measure("sets-measures", "Volume")} === "8"`);
+    if (!(await browser.evaluate(hiddenNow("#conflict")))) await click(browser, "#overwrite-state");
+    await browser.until(`${hiddenNow("#conflict")}`);
+    assert.match(readFileSync(join(root, "studio.nefstudio"), "utf8"), /box\(0,0,0, 8,1,1\)/);
+  },
+
+  async "the server is killed and started again: nothing is lost"(browser) {
+    await openStudio(browser, server.address);
+    await type(browser, AREA, "# kept\nbox(0,0,0, 9,1,1)");
+    await browser.until(`${measure("sets-measures", "Volume")} === "9"`);
+    await browser.until(`${text("#kept")} === "saved"`);
+    await browser.evaluate("new Promise((done) => setTimeout(() => done(true), 900))");
+    await server.end("SIGKILL");
+    await type(browser, AREA, "# not sent\nbox(0,0,0, 9,1,1)");
+    await browser.until(`!${hiddenNow("#gone")}`);
+    assert.match(await browser.evaluate(text("#gone")), /does not answer. Start it again/);
+    await picture(browser, "gone");
+    browser.errors = [];
+    server = await startServer();
+    await openStudio(browser, server.address);
+    assert.equal(await browser.evaluate(value(AREA)), "# kept\nbox(0,0,0, 9,1,1)");
+    await browser.until(`${measure("sets-measures", "Volume")} === "9"`);
+  },
+
+  async "narrow, light and dark"(browser) {
+    await openStudio(browser, server.address);
+    await browser.prefer("prefers-color-scheme", "dark");
+    await type(browser, AREA, "h = 5;  # a pipe\nouter = cylinder(h, 3/2);\nouter - cylinder(h, 1)");
+    await browser.until(`${measure("sets-measures", "Items")}?.startsWith("128 vertices")`);
+    const seen = await browser.evaluate(`nefViewer.page.focus.map((corner) => nefViewer.picker.project(corner)).every(([x, y]) =>
+      x > 0 && x < nefViewer.canvas.clientWidth && y > 0 && y < nefViewer.canvas.clientHeight)`);
+    assert.ok(seen, "a set of another size is framed anew");
+    await picture(browser, "dark_sets_1280");
+    await click(browser, "#tabs [data-panel=planner]");
+    await browser.until(`${text("#planner-status")} === "There is a path."`);
+    await picture(browser, "dark_planner_1280");
+    for (const scheme of ["dark", "light"]) {
+      await openStudio(browser, server.address, 400, 800);
+      await browser.prefer("prefers-color-scheme", scheme);
+      for (const panel of ["sets", "sums", "hulls", "planner"]) {
+        await click(browser, `#tabs [data-panel=${panel}]`);
+        await browser.until(`document.querySelector("#progress").dataset.running === "false"`);
+        await picture(browser, `${scheme}_${panel}_400`);
+        const wide = await browser.evaluate("[document.documentElement.scrollWidth, document.querySelector('#work').scrollWidth]");
+        assert.ok(Math.max(...wide) <= 400, `${panel}: ${wide} pixels wide`);
+      }
+    }
+    await browser.prefer("prefers-color-scheme", "light");
+  },
+
+  async "the page stops its server"(browser) {
+    await openStudio(browser, server.address);
+    await click(browser, "#stop");
+    assert.equal(server.child.exitCode, null, "asked once more");
+    await click(browser, "#stop");
+    await browser.until(`!${hiddenNow("#gone")}`);
+    assert.equal(await server.end(), 0);
+  },
+};
+
+const chromium = findChromium();
+if (!chromium) skip("chromium is not installed (apt-get install chromium)");
+rmSync(folder, { recursive: true, force: true });
+mkdirSync(root, { recursive: true });
+mkdirSync(join(folder, "away"));
+for (const name of ["rotor.off", "hole.off"]) copyFileSync(join(data, "meshes", name), join(root, name));
+copyFileSync(join(data, "meshes", "cross_quad.off"), join(folder, "away", "cross_quad.off"));
+copyFileSync(join(data, "planner", "s1_tight_hole.json"), join(root, "s1_tight_hole.json"));
+cpSync(join(data, "visual_hull", "eight"), root, { recursive: true });
+server = await startServer();
+
+const browser = new Browser(chromium);
+const patiently = browser.until.bind(browser);
+browser.until = (condition, seconds = 40) => patiently(condition, seconds); // rather than as long as large pages may take
+let failed = 0;
+for (const [name, test] of Object.entries(tests).filter(([title]) => title.includes(only))) {
+  const begin = Date.now();
+  try {
+    await test(browser);
+    const errors = (browser.errors ?? []).filter((line) => !/Failed to load resource/.test(line));
+    assert.deepEqual(errors, [], "errors on the console");
+    const outside = (browser.requests ?? []).filter((url) => !/^(http:\/\/127\.0\.0\.1:|data:|blob:)/.test(url));
+    assert.deepEqual(outside, [], "requests to a network");
+    console.log(`passed: ${name} (${((Date.now() - begin) / 1000).toFixed(1)} s)`);
+  } catch (error) {
+    ++failed;
+    console.log(`FAILED: ${name}\n${error.stack}`);
+    await picture(browser, `failed_${name.replaceAll(/[^a-z0-9]+/gi, "_")}`).catch(() => {});
+  }
+}
+await browser.close();
+server.child.kill("SIGKILL");
+process.exit(failed ? 1 : 0);

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "apps/minkowski/command/ball_words.h"
-#include "apps/minkowski/in_tiles.h"
+#include "apps/minkowski/sum/regional_sum.h"
 #include "apps/nef_mpi/distributed_sum.h"
 #include "apps/nef_mpi/distributed_union.h"
 #include "apps/nef_mpi/piece_list.h"

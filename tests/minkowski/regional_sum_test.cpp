@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/minkowski/in_tiles.h"
+#include "apps/minkowski/sum/regional_sum.h"
 #include "nef/base/error.h"
 #include "tests/support/literals.h"
 #include "tests/support/random_polyhedra.h"

@@ -4,6 +4,8 @@
 // alone. So a region's part of the result is that of A cut to the region widened by this box, with a margin, cut to the
 // region itself. The margin lets the part be that of an open box as well: A's own boundary then is all there is of an
 // open A, and sums of open sets are faster than those of sets that have some of their boundary.
+#include "apps/minkowski/sum/regional_sum.h"
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>

@@ -20,6 +20,7 @@
 #include "apps/program/stack.h"
 #include "apps/studio/server/admission.h"
 #include "apps/studio/studio.h"
+#include "apps/studio/studio_page.h"
 #include "nef/base/error.h"
 #include "nef/base/freed_memory.h"
 
@@ -86,6 +87,11 @@ int serve(std::span<char*> arguments) {
   options.limits.seconds = static_cast<double>(number(arguments[4]));
   options.limits.bytes = number(arguments[5]) << 20U;
   const bool browser = number(arguments[6]) != 0;
+  if (studio::studio_page().empty()) {
+    throw UnsupportedError(
+        "the page was not built because CMake found no node, npm or network; install the packages nodejs and npm and "
+        "configure again (cmake -B build)");
+  }
   options.files.assign(arguments.begin() + 7, arguments.end());
 
   sigset_t ends;

@@ -70,11 +70,6 @@ void append_length(std::string& bytes, std::size_t length) {
 
 Studio::Studio(StudioOptions options, std::function<void()> stop)
     : root_(options.root), stop_(std::move(stop)), pages_(options.threads, options.limits) {
-  if (studio_page().empty()) {
-    throw UnsupportedError(
-        "the studio's page was not built: CMake found no node, npm or network; install the packages nodejs and npm and "
-        "configure again (cmake -B build)");
-  }
   for (const std::string& file : options.files) {
     const std::string name = root_.file(file).lexically_relative(root_.path()).generic_string();
     if (lower_extension(name) == "nefstudio") {

@@ -46,8 +46,7 @@ inline constexpr char kStateFile[] = "studio.nefstudio";
 
 class Studio {
  public:
-  /// `stop` is called when a page asks the server to end. Throws InputError for a root or a file that is not there, and
-  /// UnsupportedError if the page was not built (npm was missing).
+  /// `stop` is called when a page asks the server to end. Throws InputError for a root or a file that is not there.
   Studio(StudioOptions options, std::function<void()> stop);
 
   /// The answer to a request. Any number of threads may ask.

@@ -86,7 +86,7 @@ class Stop(NamedTuple):
 class RangePart(NamedTuple):
     """A maximal interval of values of a joint with one status, or one value."""
 
-    #: 'free', 'touching', 'colliding', or for screws 'undecided'
+    #: 'free', 'touching', 'colliding', or for a Screw or FourBar 'undecided'
     status: str
     start: RangeEnd
     end: RangeEnd
@@ -111,6 +111,23 @@ class Screw(NamedTuple):
     axis: Any = (0, 0, 1)
     point: Any = (0, 0, 0)
     pitch: Any = 1
+
+
+class FourBar(NamedTuple):
+    """A planar four-bar linkage that moves its coupler or its rocker; its values are degrees of the crank.
+
+    Pivots and pins are points on lines along the axis, as they are when the crank is at 0 degrees.
+    """
+
+    axis: Any = (0, 0, 1)
+    #: about which the crank turns
+    crank_pivot: Any = (0, 0, 0)
+    rocker_pivot: Any = (1, 0, 0)
+    #: where the coupler is joined to the crank, and to the rocker
+    crank_pin: Any = (0, 1, 0)
+    rocker_pin: Any = (1, 1, 0)
+    #: the bar that the part belongs to: 'coupler' or 'rocker'
+    moves: str = "coupler"
 
 
 class Verdict(NamedTuple):
@@ -155,13 +172,21 @@ def verdict(parts: Parts, exact: bool = False) -> Verdict:
          for name, (status, direction, dimension, rays, stops) in zip(names, judged)])
 
 
+def _joint_values(joint):
+    if not isinstance(joint, FourBar):
+        return (type(joint).__name__.lower(), *joint)
+    if joint.moves not in ("coupler", "rocker"):
+        raise InputError("moves must be 'coupler' or 'rocker'")
+    return ("four-bar", *joint[:-1], joint.moves == "rocker")
+
+
 def range_of_motion(moving: Any, fixed: Optional[Union[Dict[str, Polyhedron], Sequence[Polyhedron]]] = None,
-                    joint: Optional[Union[Hinge, Slider, Screw]] = None, low: Any = 0, high: Any = 360) -> List[RangePart]:
+                    joint: Optional[Union[Hinge, Slider, Screw, FourBar]] = None, low: Any = 0, high: Any = 360) -> List[RangePart]:
     """The exact values of a joint at which a part is free, touches or collides: a list of RangePart, in order.
 
     - moving: the part that moves, in its place at the value 0; or a mechanism's file as `planner --range` takes it, alone
     - fixed: the parts that stay, {name: Polyhedron} or a list
-    - joint: a Hinge, Slider or Screw
+    - joint: a Hinge, Slider, Screw or FourBar
     - low, high: degrees, or multiples of a slider's direction
 
         >>> import nef
@@ -186,7 +211,7 @@ def range_of_motion(moving: Any, fixed: Optional[Union[Dict[str, Polyhedron], Se
             raise TypeError("fixed must be a list or a dictionary of Polyhedron: write [fixed] for one part")
         names = list(fixed) if isinstance(fixed, dict) else [f"part {i}" for i in range(len(fixed))]
         sets = list(fixed.values()) if isinstance(fixed, dict) else list(fixed)
-        parts = _planner.range_of_motion(moving, sets, (type(joint).__name__.lower(), *joint), low, high)
+        parts = _planner.range_of_motion(moving, sets, _joint_values(joint), low, high)
 
     def end(measure, lower, upper, stops):
         return RangeEnd(measure, (lower, upper), [Stop(item, names[part], other) for item, part, other in stops])

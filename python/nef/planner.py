@@ -24,13 +24,13 @@ from ._nef import Polyhedron
 from .assemblies import (Disassembly, DisassemblyStep, FreeDirections, Inseparable, Undecided, disassemble, free_directions,
                          prove_inseparable, complaint_about_inseparable)
 from .errors import Error, InputError, InputWarning
-from .mechanisms import (CertifiedLinkagePath, CheckedMotion, Hinge, Joint, Linkage, Overlap, PairVerdict, PartVerdict, RangeEnd, RangePart, Screw, Slider,
+from .mechanisms import (CertifiedLinkagePath, CheckedMotion, FourBar, Hinge, Joint, Linkage, Overlap, PairVerdict, PartVerdict, RangeEnd, RangePart, Screw, Slider,
                          Stop, Verdict, range_of_motion, reads_urdf, verdict)
 
 Exact3 = Tuple[Fraction, Fraction, Fraction]
 
 __all__ = ["Cell", "CertifiedLinkagePath", "CertifiedPath", "CheckedMotion", "CollidingPose", "Component", "Disassembly", "DisassemblyStep",
-           "FreeDirections", "Hinge", "Inseparable", "Joint", "Linkage", "Overlap", "PairVerdict",
+           "FourBar", "FreeDirections", "Hinge", "Inseparable", "Joint", "Linkage", "Overlap", "PairVerdict",
            "PartVerdict", "Plan", "Proof", "RangeEnd", "RangePart", "Rotation", "Scene", "Screw", "Slider", "Stop", "Thinness",
            "TightPassage", "TurningProof", "Undecided", "Verdict", "Widest", "complaint_about_inseparable", "disassemble",
            "free_directions", "prove_inseparable", "range_of_motion", "read", "reads_urdf", "verdict"]

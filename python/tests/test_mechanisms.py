@@ -82,6 +82,13 @@ def test_range_of_motion(needs, tmp_path):
         part[:1] + (part.start.bounds, part.end.bounds) for part in parts]
     screw = planner.range_of_motion(nef.box((0, 0, 0), (1, 1, 1)), [nef.box((-3, -3, 4), (3, 3, 5))], planner.Screw(pitch=1), 0, 1080)
     assert screw[0].status == "free" and screw[-1].status in ("touching", "undecided")
+    bars = planner.FourBar((0, 0, 1), (0, 0, 0), (4, 0, 0), (0, 1, 0), (4, 1, 0), "coupler")
+    swing = planner.range_of_motion(nef.box((0, 1, 0), (4, "3/2", 1)), [nef.box(("9/2", -3, 0), (6, 3, 1))], bars, -80, 80)
+    assert [part.status for part in swing] == ["colliding", "undecided", "free"] and round(swing[1].start.measure, 5) == -30
+    with pytest.raises(nef.InputError, match="one line"):
+        planner.range_of_motion(door, [post], bars, 0, 180)
+    with pytest.raises(nef.InputError, match="moves"):
+        planner.range_of_motion(door, [post], bars._replace(moves="crank"), 0, 10)
     with pytest.raises(nef.InputError):
         planner.range_of_motion(door)
     with pytest.raises(nef.InputError):

@@ -26,8 +26,10 @@ A scene is JSON: {"robot": SHAPE, "obstacles": [SHAPE, ...], "start": [x, y, z],
 An assembly is {"parts": {"name": SHAPE, ...}}, each part at its assembled place. A mechanism is {"moving": SHAPE,
 "fixed": [SHAPE, ...], "joint": JOINT}, JOINT one of
 {"type": "hinge", "axis": "z", "point": [x, y, z], "range": [0, 360]},
-{"type": "slider", "direction": [0, 0, 1], "range": [0, 5]} and
-{"type": "screw", "axis": "z", "pitch": 1, "range": [0, 720]}.
+{"type": "slider", "direction": [0, 0, 1], "range": [0, 5]},
+{"type": "screw", "axis": "z", "pitch": 1, "range": [0, 720]} and
+{"type": "four-bar", "axis": "z", "pivots": [POINT, POINT], "pins": [POINT, POINT], "moves": "coupler"|"rocker",
+"range": [0, 360]}.
 
 Exit codes: 0 a path; 1 proof that there is none (with --path: the given path leaves free space);
 2 bad input or usage; 3 start or goal is not free; 4 (--ompl only) no answer within the time; 5 undecided

@@ -283,7 +283,7 @@ EventCell::EventCell(const Joint& joint, const Rational& begin, const Rational& 
     : from(begin),
       width(end - begin),
       turning(joint.kind() == Joint::Kind::kHinge),
-      rounded(joint.sweep(begin, end).all) {
+      rounded(joint.sweep(begin, end, 0).all) {
   const std::array<Quaternion, 2> ends = joint.arc(begin, end);
   const auto set = [&](std::size_t i, const Quaternion& p, const Quaternion& q) {
     turns[i] = rotation_between(p, q);

@@ -49,7 +49,7 @@ struct ContactEvent {
 };
 
 /// The values in [from, to], which must be within one quarter, as events in them are found: made once for all pairs of
-/// pieces. Not for a screw.
+/// pieces. For joints whose poses are algebraic.
 struct EventCell {
   EventCell(const Joint& joint, const Rational& from, const Rational& to);
   Rational from;

@@ -2,12 +2,14 @@
 //
 // Within a quarter, the quaternion of a turn is linear in it (turning/turn.h), so a hinge's cell is an arc with the
 // value as its parameter. A screw's cell is a part of a motion over a whole quarter whose position goes evenly with the
-// angle (MotionTiming::kSlerp), which is the screw's own motion.
+// angle (MotionTiming::kSlerp), which is the screw's own motion. A four-bar linkage's is the pose in the middle and a
+// ball.
 #include "apps/planner/mechanism/joint.h"
 
 #include <cmath>
 
 #include "nef/base/error.h"
+#include "nef/geometry/vectors.h"
 #include "nef/number/floor.h"
 
 namespace nef::planner {
@@ -25,6 +27,34 @@ double degrees_of(const Quaternion& q) {
   const double w = nearest_double(q[0]);
   const double s = std::sqrt(nearest_double(q[1] * q[1] + q[2] * q[2] + q[3] * q[3]));
   return std::atan2(s, w) * 360 / M_PI;
+}
+
+// `away`: how far the point about which the link turns is from the origin.
+Joint::Sweep sweep_of(const FourBar::Place& place, double away, double reach) {
+  constexpr double kSpare = 1 + 0x1p-20;  // for the roundings of sums here
+  Joint::Sweep sweep;
+  double turn_square = 0;
+  double shift_square = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    for (std::size_t j = 0; j < 3; ++j) {
+      const Interval& entry = place.turn[i][j];
+      sweep.all.turns[0](row, static_cast<Eigen::Index>(j)) = entry.middle();
+      turn_square += entry.radius() * entry.radius();
+    }
+    sweep.all.positions[0][row] = place.shift[i].middle();
+    shift_square += place.shift[i].radius() * place.shift[i].radius();
+  }
+  sweep.all.position_reach = sweep.all.positions[0].lpNorm<1>();
+  const double rounding = (std::sqrt(turn_square) * (reach + away) + std::sqrt(shift_square)) * kSpare;
+  const double way = (place.way + place.turned * reach) * kSpare;
+  sweep.all.slack = rounding + way;
+  sweep.middle = sweep.all;
+  sweep.middle.slack = rounding;
+  // The turn is rounded, so points are off by that. So are turned normals, as a part of their length, and by that times
+  // differences of points no longer than twice the reach: 8 times the error of points is more than all.
+  sweep.middle_error = 8 * rounding + way;
+  return sweep;
 }
 
 }  // namespace
@@ -45,9 +75,42 @@ Joint Joint::screw(const Rational3& axis, const Rational3& point, const Rational
   return joint;
 }
 
+Joint Joint::four_bar(const Rational3& axis, const std::array<Rational3, 2>& pivots,
+                      const std::array<Rational3, 2>& pins, FourBar::Link link) {
+  Joint joint(Kind::kFourBar, axis);
+  joint.point_ = pivots[0];
+  joint.bars_.emplace(joint.axis_, minus(pivots[1], pivots[0]),
+                      std::array{minus(pins[0], pivots[0]), minus(pins[1], pivots[0])}, link);
+  return joint;
+}
+
+void Joint::require_range(const Rational& low, const Rational& high) const {
+  if (!bars_) return;
+  const auto require = [&](const auto& self, const Rational& from, const Rational& to, unsigned depth) -> void {
+    if (bars_->place(arc(from, to))) return;
+    constexpr unsigned kMostHalvings = 24;
+    if (depth == kMostHalvings) {
+      throw InputError(
+          "coupler and rocker of the four-bar linkage are in one line, or do not meet, when the crank is at " +
+          std::to_string(measure_of(from)) + " degrees; the range must end before");
+    }
+    const Rational middle = (from + to) / 2;
+    self(self, from, middle, depth + 1);
+    self(self, middle, to, depth + 1);
+  };
+  std::vector<Rational> ends = breaks(low, high);
+  ends.push_back(high);
+  Rational from = low;
+  for (const Rational& to : ends) {
+    if (from < to || low == high) require(require, from, to, 0);
+    from = to;
+  }
+}
+
 Rational Joint::value_of(const Rational& measure) const {
   switch (kind_) {
     case Kind::kHinge:
+    case Kind::kFourBar:
       return axis_.turn_of_degrees(measure);
     case Kind::kSlider:
       return measure;
@@ -65,7 +128,7 @@ Rational Joint::value_of(const Rational& measure) const {
 }
 
 double Joint::measure_of(const Rational& value) const {
-  if (kind_ == Kind::kHinge) return axis_.degrees_of(value);
+  if (kind_ == Kind::kHinge || kind_ == Kind::kFourBar) return axis_.degrees_of(value);
   if (kind_ == Kind::kSlider) return nearest_double(value);
   const Integer quarter = floor_of(value);
   const RigidMotion motion = quarter_of(axis_, direction_, 0);
@@ -80,7 +143,7 @@ std::vector<Rational> Joint::breaks(const Rational& low, const Rational& high) c
 }
 
 RigidPose Joint::pose(const Rational& value) const {
-  NEF_ASSERT(kind_ != Kind::kScrew);
+  NEF_ASSERT(is_algebraic());
   if (kind_ == Kind::kHinge) return {{0, 0, 0}, axis_.quaternion(value)};
   return {{value * direction_[0], value * direction_[1], value * direction_[2]}, {1, 0, 0, 0}};
 }
@@ -100,7 +163,7 @@ std::array<Quaternion, 2> Joint::arc(const Rational& from, const Rational& to) c
 }
 
 std::array<Surd3, 4> Joint::pose(const QuadraticRoot& value) const {
-  NEF_ASSERT(kind_ != Kind::kScrew);
+  NEF_ASSERT(is_algebraic());
   std::array<Surd3, 4> result;
   const Surd at = Surd::of(value);
   if (kind_ == Kind::kSlider) {
@@ -128,8 +191,17 @@ std::array<Surd3, 4> Joint::pose(const QuadraticRoot& value) const {
   return result;
 }
 
-Joint::Sweep Joint::sweep(const Rational& from, const Rational& to) const {
+Joint::Sweep Joint::sweep(const Rational& from, const Rational& to, double reach) const {
   Sweep sweep;
+  if (bars_) {
+    const std::optional<FourBar::Place> place = bars_->place(arc(from, to));
+    if (place) {
+      const Rational3& centre = bars_->centre();
+      return sweep_of(*place, std::sqrt(nearest_double(dot(centre, centre))), reach);
+    }
+    sweep.all.wide = true;
+    return sweep;
+  }
   if (kind_ != Kind::kScrew) {
     const RigidMotion motion(pose(from), pose(to));
     const MotionCells cells(motion);
@@ -151,7 +223,7 @@ Joint::Sweep Joint::sweep(const Rational& from, const Rational& to) const {
 Joint::Sweep Joint::sweep(const QuadraticRoot& value) const {
   constexpr unsigned kBits = 45;
   const std::array<Rational, 2> around = enclosure(value, kBits);
-  return sweep(around[0], around[1]);
+  return sweep(around[0], around[1], 0);
 }
 
 }  // namespace nef::planner

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/planner/assembly/parts.h"
+#include "apps/planner/mechanism/four_bar.h"
 #include "apps/planner/mechanism/quadratic_root.h"
 #include "apps/planner/rigid/motion_cell.h"
 #include "apps/planner/scene/scene.h"
@@ -22,19 +24,31 @@ namespace nef::planner {
 /// - a hinge turns it about a line; the value is a Turn, a rational half-tangent within its quarter
 /// - a slider moves it along a direction; the value is the multiple of that direction
 /// - a screw does both; the value is in quarters, and within a quarter the parameter of the arc of quaternions
+/// - a four-bar linkage moves its coupler or its rocker; the value is the Turn of its crank
 class Joint {
  public:
-  enum class Kind : std::uint8_t { kHinge, kSlider, kScrew };
+  enum class Kind : std::uint8_t { kHinge, kSlider, kScrew, kFourBar };
 
   /// Throws InputError for the zero vector.
   static Joint hinge(const Rational3& axis, const Rational3& point);
   static Joint slider(const Rational3& direction);
   /// `pitch` is the way along the axis of a full turn. Throws InputError unless the axis has a rational length.
   static Joint screw(const Rational3& axis, const Rational3& point, const Rational& pitch);
+  /// The pivots of crank and rocker and the pins of the coupler, that of the crank first; the rest as of FourBar.
+  static Joint four_bar(const Rational3& axis, const std::array<Rational3, 2>& pivots,
+                        const std::array<Rational3, 2>& pins, FourBar::Link link);
 
   [[nodiscard]] Kind kind() const { return kind_; }
-  /// Of a hinge or screw; poses are those of parts that are shifted so that this is the origin.
+  /// Whether poses are algebraic: contact is found as the roots of polynomials then, and by bisection else.
+  [[nodiscard]] bool is_algebraic() const { return kind_ == Kind::kHinge || kind_ == Kind::kSlider; }
+  /// Throws InputError if the bars of a four-bar linkage do not meet at all values of a range, or come so near to a
+  /// line that this is not known.
+  void require_range(const Rational& low, const Rational& high) const;
+  /// A point on the axis; of a four-bar linkage the crank's pivot. Poses are those of parts that are shifted so that
+  /// this is the origin.
   [[nodiscard]] const Rational3& point() const { return point_; }
+  /// The direction of the axis. Of a four-bar linkage: nothing moves along it.
+  [[nodiscard]] const Rational3& axis() const { return axis_.direction(); }
 
   /// The value for degrees, or for a multiple of the direction: exact for sliders and whole quarters, else within
   /// 1e-12.
@@ -45,12 +59,17 @@ class Joint {
   /// Values at which cells must begin: whole quarters. Nothing for a slider.
   [[nodiscard]] std::vector<Rational> breaks(const Rational& low, const Rational& high) const;
 
-  /// The pose at a value. Not for a screw.
+  /// The pose at a value. If poses are algebraic.
   [[nodiscard]] RigidPose pose(const Rational& value) const;
-  /// The quaternions of two values within one quarter so that those of values in between are linear in the value.
+  /// The quaternions of two values within one quarter so that those of values in between are linear in the value: of a
+  /// four-bar linkage those of the crank.
   [[nodiscard]] std::array<Quaternion, 2> arc(const Rational& from, const Rational& to) const;
-  /// The rotation matrix and the position at a value, in its field. Not for a screw.
+  /// The rotation matrix and the position at a value, in its field. If poses are algebraic.
   [[nodiscard]] std::array<Surd3, 4> pose(const QuadraticRoot& value) const;
+
+  /// A point, in the coordinates of poses, about which the part turns while that point moves: of a four-bar linkage the
+  /// crank's pin or the rocker's pivot, of other joints the origin.
+  [[nodiscard]] Rational3 turning_point() const { return bars_ ? bars_->centre() : Rational3{}; }
 
   /// What a cell of values sweeps, and the pose at about its middle, in doubles. For values within one quarter.
   struct Sweep {
@@ -58,8 +77,10 @@ class Joint {
     MotionCell middle;
     double middle_error = 0;  ///< how far the middle's position may be off, beyond rounding
   };
-  [[nodiscard]] Sweep sweep(const Rational& from, const Rational& to) const;
-  /// The same for a cell around a value that is about as narrow as doubles can tell.
+  /// `reach`: no point of the moving part is farther from turning_point(). (Only cells of a four-bar linkage depend on
+  /// it.)
+  [[nodiscard]] Sweep sweep(const Rational& from, const Rational& to, double reach) const;
+  /// The same for a cell around a value that is about as narrow as doubles can tell. If poses are algebraic.
   [[nodiscard]] Sweep sweep(const QuadraticRoot& value) const;
 
  private:
@@ -69,6 +90,7 @@ class Joint {
   TurningAxis axis_;
   Rational3 direction_;  // of a slider; of a screw the way of a quarter
   Rational3 point_;
+  std::optional<FourBar> bars_;  // seen from the point
 };
 
 /// A solid that a joint moves among others that stay.
@@ -91,9 +113,13 @@ Assembly assembly_of(const Mechanism& mechanism);
 ///     {"type": "hinge", "axis": "z" or [x, y, z], "point": [x, y, z], "range": [degrees, degrees]}
 ///     {"type": "slider", "direction": "z" or [x, y, z], "range": [from, to]}
 ///     {"type": "screw", "axis": ..., "point": ..., "pitch": way of a turn, "range": [degrees, degrees]}
+///     {"type": "four-bar", "axis": ..., "pivots": [POINT, POINT], "pins": [POINT, POINT],
+///      "moves": "coupler" or "rocker", "range": [degrees, degrees]}
 ///
 /// `point` is a point on the axis, the origin if it is left out. The range of a hinge is [0, 360] if it is left out.
-/// All shapes must be bounded solids. Throws InputError.
+/// Pivots of a four-bar linkage are those of crank and rocker, `pins` those of the coupler, that of the crank first,
+/// all as they are at 0 degrees of the crank; `moves` says to which bar the moving part belongs. All shapes must be
+/// bounded solids. Throws InputError.
 Mechanism read_mechanism(const std::string& path, const MeshOptions& meshes = scene_meshes());
 
 /// The same from text; `folder` is where file names begin.

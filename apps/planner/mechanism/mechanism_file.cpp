@@ -11,25 +11,42 @@
 namespace nef::planner {
 namespace {
 
+constexpr std::array kTypes{"hinge", "slider", "screw", "four-bar"};  // in the order of Joint::Kind
+
+Joint four_bar_of(const JsonReader& value) {
+  constexpr std::array kLinks{"coupler", "rocker"};  // in the order of FourBar::Link
+  const auto link = static_cast<FourBar::Link>(value["moves"].word(kLinks));
+  return Joint::four_bar(direction_of(value["axis"]), value["pivots"].exactly<2>(JsonReader::point_of),
+                         value["pins"].exactly<2>(JsonReader::point_of), link);
+}
+
+Joint joint_of(const JsonReader& value, Joint::Kind kind) {
+  const auto point = [&] { return value.has("point") ? value["point"].point() : Rational3{}; };
+  switch (kind) {
+    case Joint::Kind::kHinge:
+      value.require_keys({"type", "axis"}, {"point", "range"});
+      return Joint::hinge(direction_of(value["axis"]), point());
+    case Joint::Kind::kSlider:
+      value.require_keys({"type", "direction", "range"});
+      return Joint::slider(direction_of(value["direction"]));
+    case Joint::Kind::kScrew:
+      value.require_keys({"type", "axis", "range", "pitch"}, {"point"});
+      return Joint::screw(direction_of(value["axis"]), point(), value["pitch"].number());
+    default:
+      value.require_keys({"type", "axis", "pivots", "pins", "moves", "range"});
+      return four_bar_of(value);
+  }
+}
+
 void read_joint(const JsonReader& value, Mechanism& m) {
   if (!value.has("type")) value.fail(R"(expected an object with a "type")");
-  const std::size_t type = value["type"].word(std::array{"hinge", "slider", "screw"});
-  const bool turns = type != 1;
-  const char* along = turns ? "axis" : "direction";
-  std::vector<const char*> required{"type", along};
-  std::vector<const char*> optional;
-  if (turns) optional.emplace_back("point");
-  (type == 0 ? optional : required).emplace_back("range");
-  if (type == 2) required.emplace_back("pitch");
-  value.require_keys(required, optional);
-  const Rational3 direction = direction_of(value[along]);
-  const Rational3 point = value.has("point") ? value["point"].point() : Rational3{};
-  m.joint = type == 0   ? Joint::hinge(direction, point)
-            : type == 1 ? Joint::slider(direction)
-                        : Joint::screw(direction, point, value["pitch"].number());
+  const auto kind = static_cast<Joint::Kind>(value["type"].word(kTypes));
+  m.joint = joint_of(value, kind);
   std::array<Rational, 2> range{0, 360};
   constexpr int kMostDegrees = 3600;
-  if (value.has("range")) range = turns ? range_of(value["range"], kMostDegrees) : range_of(value["range"]);
+  if (value.has("range")) {
+    range = kind == Joint::Kind::kSlider ? range_of(value["range"]) : range_of(value["range"], kMostDegrees);
+  }
   m.low = m.joint.value_of(range[0]);
   m.high = m.joint.value_of(range[1]);
 }

@@ -30,10 +30,13 @@ using Pair = std::array<std::uint32_t, 2>;  // pieces: of the moving part, and o
 constexpr unsigned kFirstCells = 16;
 // Cells are halved so many times at most before their events are found,
 constexpr unsigned kDepth = 7;
-// or a screw's cells before they are undecided.
-constexpr unsigned kScrewDepth = 26;
+// or those of joints that are not algebraic before they are undecided.
+constexpr unsigned kLastDepth = 26;
 // A cell with so few products is not halved.
 constexpr std::size_t kFewProducts = 3000;
+// So many cells of a joint that is not algebraic are made of one of the first cells: what keeps contact all the time
+// would be halved to the last depth everywhere.
+constexpr std::size_t kMostCells = 8000;
 
 struct Shifted {
   Polyhedron moving;
@@ -62,9 +65,16 @@ class RangeSearch {
         forbidding_(moving_, fixed_, ContactRule::kForbid) {
     for (const RigidBody::Piece& piece : moving_.pieces()) moving_pieces_.emplace_back(piece);
     for (const RigidBody::Piece& piece : fixed_.pieces()) fixed_pieces_.emplace_back(piece);
+    const Vector3d centre = to_vector(m_.joint.turning_point());
+    for (const RigidBody::Piece& piece : moving_.pieces()) {
+      for (const Vector3d& point : piece.points) reach_ = std::max(reach_, (point - centre).norm());
+    }
+    reach_ = reach_ * (1 + 0x1p-20) + 0x1p-40 * moving_.nodes().front().reach;  // for roundings
+    if (m_.joint.kind() == Joint::Kind::kFourBar) find_levels();
   }
 
   RangeOfMotion run() {
+    m_.joint.require_range(m_.low, m_.high);
     std::vector<Rational> breaks = m_.joint.breaks(m_.low, m_.high);
     breaks.insert(breaks.begin(), m_.low);
     breaks.push_back(m_.high);
@@ -75,6 +85,7 @@ class RangeSearch {
         Rational share(k, kFirstCells);
         share.canonicalize();
         const Rational to = breaks[i] + share * (breaks[i + 1] - breaks[i]);
+        cells_left_ = kMostCells;
         examine(from, to, nullptr, 0);
         from = to;
       }
@@ -92,22 +103,64 @@ class RangeSearch {
     return result;
   }
 
+  // A four-bar linkage moves in planes across its axis. Two pieces that have only such a plane in common never overlap,
+  // and they touch when they would overlap if one of them were shifted along the axis.
+  void find_levels() {
+    const Rational3& n = m_.joint.axis();
+    const auto extent = [&](const RigidBody::Piece& piece) {
+      std::array<Rational, 2> result{dot(n, piece.mesh.vertices.front()), dot(n, piece.mesh.vertices.front())};
+      for (const Rational3& v : piece.mesh.vertices) {
+        result[0] = std::min(result[0], dot(n, v));
+        result[1] = std::max(result[1], dot(n, v));
+      }
+      return result;
+    };
+    for (std::uint32_t i = 0; i < moving_.pieces().size(); ++i) {
+      const std::array<Rational, 2> a = extent(moving_.pieces()[i]);
+      for (std::uint32_t j = 0; j < fixed_.pieces().size(); ++j) {
+        const std::array<Rational, 2> b = extent(fixed_.pieces()[j]);
+        if (a[0] != b[1] && a[1] != b[0]) continue;
+        const Rational way = (a[0] + a[1] - b[0] - b[1]) / 2 / dot(n, n);
+        levels_.emplace(Pair{i, j},
+                        RigidBody::of_set(transform(convex_hull(fixed_.pieces()[j].mesh.vertices),
+                                                    AffineMap::translate({way * n[0], way * n[1], way * n[2]}))));
+      }
+    }
+  }
+
+  // The piece that stays, where it may overlap the other one of the pair.
+  [[nodiscard]] const RigidBody::Piece& fixed_piece(const Pair& pair) const {
+    const auto level = levels_.find(pair);
+    return level == levels_.end() ? fixed_.pieces()[pair[1]] : level->second.pieces().front();
+  }
+
   // Cells in order; `near` are the pairs that a wider cell left.
   void examine(const Rational& from, const Rational& to, const std::vector<Pair>* near, unsigned depth) {
     monitor_.check_interruption();
     ++result_.cells;
-    const Joint::Sweep sweep = m_.joint.sweep(from, to);
+    cells_left_ -= std::min<std::size_t>(cells_left_, 1);
+    const Joint::Sweep sweep = m_.joint.sweep(from, to, reach_);
+    if (sweep.all.wide) {
+      const Rational middle = (from + to) / 2;
+      examine(from, middle, near, depth + 1);
+      return examine(middle, to, near, depth + 1);
+    }
     const std::vector<Pair> pairs = not_apart(sweep.all, near);
     if (pairs.empty()) return add_all(RangeStatus::kFree, from, to);
-    if (all_collide(sweep, pairs)) return add_all(RangeStatus::kColliding, from, to);
-    const bool screw = m_.joint.kind() == Joint::Kind::kScrew;
+    std::vector<Pair> others = pairs;
+    std::erase_if(others, [&](const Pair& pair) { return levels_.count(pair) > 0; });
+    const bool may_overlap = !others.empty();
+    if (all_collide(sweep, may_overlap ? others : pairs)) {
+      return add_all(may_overlap ? RangeStatus::kColliding : RangeStatus::kTouching, from, to);
+    }
+    const bool algebraic = m_.joint.is_algebraic();
     std::size_t cost = 0;
     for (const Pair& pair : pairs) cost += event_cost(moving_pieces_[pair[0]], fixed_pieces_[pair[1]]);
-    if (depth < (screw ? kScrewDepth : kDepth) && (screw || cost > kFewProducts)) {
+    if (depth < (algebraic ? kDepth : kLastDepth) && (algebraic ? cost > kFewProducts : cells_left_ > 0)) {
       const Rational middle = (from + to) / 2;
       examine(from, middle, &pairs, depth + 1);
       examine(middle, to, &pairs, depth + 1);
-    } else if (screw) {
+    } else if (!algebraic) {
       add(RangeStatus::kUndecided, from, to, {});
     } else {
       find_events(from, to, pairs);
@@ -119,7 +172,7 @@ class RangeSearch {
     std::vector<Pair> result;
     const auto look_at = [&](const Pair& pair) {
       place(moving_.pieces()[pair[0]], cell, rough_moving_);
-      place(fixed_.pieces()[pair[1]], rough_fixed_);
+      place(fixed_piece(pair), rough_fixed_);
       if (plane_between(rough_moving_, rough_fixed_) != Separation::kApart) result.push_back(pair);
     };
     if (near != nullptr) {
@@ -145,7 +198,7 @@ class RangeSearch {
           0x1p-40 * reach;
       place(a, sweep.middle, rough_moving_);
       keep_face_normals(a, sweep.middle, rough_moving_);
-      if (overlap(a, rough_moving_, fixed_.pieces()[pair[1]], slack) == Separation::kOverlapping) return true;
+      if (overlap(a, rough_moving_, fixed_piece(pair), slack) == Separation::kOverlapping) return true;
     }
     return false;
   }
@@ -376,6 +429,9 @@ class RangeSearch {
   std::vector<ContactPiece> moving_pieces_;
   std::vector<ContactPiece> fixed_pieces_;
   std::map<Rational, RangeStatus> known_;
+  std::map<Pair, RigidBody> levels_;  // of pairs that have only a plane across the axis in common: the piece that stays
+  std::size_t cells_left_ = 0;
+  double reach_ = 0;  // of the moving part, from the joint's turning point
   RangeOfMotion result_;
   RoughPolytope rough_moving_;
   RoughPolytope rough_fixed_;

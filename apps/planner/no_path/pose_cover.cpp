@@ -190,11 +190,16 @@ std::vector<Rational3> common_points(const BlockingPairs& pairs, const BlockingP
   return result;
 }
 
-PoseCover cover_poses(const BlockingPairs& pairs, const Orientations& orientations, const PositionBox& box,
-                      std::size_t& budget, const Monitor& monitor) {
+PoseCover cover_poses(const BlockingPairs& pairs, const Orientations& orientations,
+                      const std::vector<std::optional<ChartImage>>& images, const PositionBox& box, std::size_t& budget,
+                      const Monitor& monitor) {
   PoseCover result;
   Covering covering(pairs, orientations, budget, monitor);
   for (std::uint32_t chart = 0; chart < orientations.charts().size(); ++chart) {
+    if (images[chart]) {
+      result.charts.push_back(image_of(result.charts[images[chart]->of], *images[chart]));
+      continue;
+    }
     CoverPart part{box, {}};
     part.orientation.chart = chart;
     if (covering.cover(part, pairs.turned(part.orientation), pairs.all(), result.charts.emplace_back())) continue;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/planner/no_path/blocking_pairs.h"
+#include "apps/planner/no_path/chart_images.h"
 #include "nef/base/monitor.h"
 
 namespace nef::planner {
@@ -33,8 +34,9 @@ std::vector<Rational3> common_points(const BlockingPairs& pairs, const BlockingP
 /// Cuts a box of positions and all orientations until each part is blocked by one pair of pieces or beyond a side of
 /// the box. Stops at the first part in the middle of which no pair overlaps. `budget` is how many parts may be made,
 /// and becomes what is left of it; if that is nothing, the middle of the part in question counts as open. A part takes
-/// some ten small programs for each pair that may meet in it.
-PoseCover cover_poses(const BlockingPairs& pairs, const Orientations& orientations, const PositionBox& box,
-                      std::size_t& budget, const Monitor& monitor = {});
+/// some ten small programs for each pair that may meet in it; a chart that is the image of another one takes none.
+PoseCover cover_poses(const BlockingPairs& pairs, const Orientations& orientations,
+                      const std::vector<std::optional<ChartImage>>& images, const PositionBox& box, std::size_t& budget,
+                      const Monitor& monitor = {});
 
 }  // namespace nef::planner

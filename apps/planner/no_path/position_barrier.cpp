@@ -21,6 +21,7 @@ PositionBarrier::PositionBarrier(const PathProof::Claim& claim, const Orientatio
                                  const Rational3& reference, const Monitor& monitor)
     : orientations_(orientations),
       reference_(reference),
+      images_(images_of_charts(claim, orientations, reference)),
       pairs_(claim, orientations, reference),
       monitor_(monitor),
       graph_(claim, reference, pairs_.reach()) {
@@ -28,9 +29,10 @@ PositionBarrier::PositionBarrier(const PathProof::Claim& claim, const Orientatio
   graph_.add_root(pairs_.all(), [&](CellId id) { judge(id); });
 }
 
-// The corners, the middle and the middles of the octants of each chart.
+// The corners, the middle and the middles of the octants of each chart that is no image of another one.
 void PositionBarrier::add_samples() {
   for (std::uint32_t chart = 0; chart < orientations_.charts().size(); ++chart) {
+    if (images_[chart]) continue;
     std::vector<std::array<double, 3>> points{{0, 0, 0}};
     for (const double far : {1.0, 0.5}) {
       for (std::size_t i = 0; i < (std::size_t{1} << orientations_.dimension()); ++i) {
@@ -128,7 +130,7 @@ void PositionBarrier::choose_axis(BarrierCell& cell, Judged& judged) {
 
 // Covers a box; if a pose in it is open, that is a sample from now on.
 bool PositionBarrier::cover(CellId id, std::size_t& budget) {
-  PoseCover found = cover_poses(pairs_, orientations_, graph_[id].box, budget, monitor_);
+  PoseCover found = cover_poses(pairs_, orientations_, images_, graph_[id].box, budget, monitor_);
   if (!found.open) {
     graph_[id].state = BarrierCell::State::kBlocked;
     graph_[id].blocked = std::move(found.charts);

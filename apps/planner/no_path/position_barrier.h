@@ -8,6 +8,7 @@
 
 #include "apps/planner/no_path/barrier_graph.h"
 #include "apps/planner/no_path/blocking_pairs.h"
+#include "apps/planner/no_path/chart_images.h"
 #include "apps/planner/proofs/path_proof.h"
 #include "nef/base/monitor.h"
 
@@ -53,6 +54,7 @@ class PositionBarrier {
 
   const Orientations& orientations_;
   Rational3 reference_;
+  std::vector<std::optional<ChartImage>> images_;  // of each chart
   BlockingPairs pairs_;
   Monitor monitor_;
   // An orientation; those that are special, as a robot with right angles would have them, do not count in efforts.

@@ -24,10 +24,6 @@ std::uint32_t component_of(std::uint32_t chart, std::uint32_t parameter) {
   return parameter < chart ? parameter : parameter + 1;
 }
 
-std::uint32_t parameter_of(std::uint32_t chart, std::uint32_t component) {
-  return component < chart ? component : component - 1;
-}
-
 }  // namespace
 
 Orientations Orientations::all() {
@@ -83,10 +79,38 @@ std::optional<OrientationBox<Rational>> Orientations::locate(const Quaternion& q
   return result;
 }
 
-std::vector<ScaledMatrix<Rational>> mixed_rotations(const Orientations& orientations,
-                                                    const OrientationBox<Rational>& cell) {
+namespace {
+
+template <std::size_t N>
+void take_denominators(const std::array<Rational, N>& numbers, Integer& common) {
+  for (const Rational& x : numbers) common = lcm(common, x.get_den());
+}
+
+template <std::size_t N>
+std::array<Integer, N> multiplied(const std::array<Rational, N>& numbers, const Integer& factor) {
+  std::array<Integer, N> result;
+  for (std::size_t i = 0; i < N; ++i) result[i] = factor / numbers[i].get_den() * numbers[i].get_num();
+  return result;
+}
+
+}  // namespace
+
+// With parameters times an even factor, and the origin times this and that of the directions, all quaternions are
+// integers.
+std::vector<ScaledMatrix<Integer>> mixed_rotations(const Orientations& orientations,
+                                                   const OrientationBox<Rational>& cell) {
   const Orientations::Chart& chart = orientations.charts()[cell.chart];
-  return mixed_rotations(chart.origin, chart.directions, cell.low, cell.high);
+  Integer parts = 1;
+  take_denominators(cell.low, parts);
+  take_denominators(cell.high, parts);
+  parts *= 2;
+  Integer units = 1;
+  take_denominators(chart.origin, units);
+  for (const Quaternion& direction : chart.directions) take_denominators(direction, units);
+  std::vector<std::array<Integer, 4>> directions;
+  for (const Quaternion& direction : chart.directions) directions.push_back(multiplied(direction, units));
+  return mixed_rotations(multiplied(chart.origin, units * parts), directions, multiplied(cell.low, parts),
+                         multiplied(cell.high, parts));
 }
 
 }  // namespace nef::planner

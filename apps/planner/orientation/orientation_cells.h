@@ -58,6 +58,11 @@ class Orientations {
   /// Of all rotations: each facet of a chart that is glued, once.
   [[nodiscard]] const std::vector<ChartSeam>& seams() const { return seams_; }
 
+  /// Of all rotations: the parameter that a component of a quaternion is in the chart of another component.
+  [[nodiscard]] static std::uint32_t parameter_of(std::uint32_t chart, std::uint32_t component) {
+    return component < chart ? component : component - 1;
+  }
+
   /// Of all rotations: a chart and parameters of one; nothing for the zero quaternion.
   [[nodiscard]] static std::optional<OrientationBox<Rational>> locate(const Quaternion& q);
 
@@ -131,8 +136,8 @@ std::vector<ScaledMatrix<Number>> mixed_rotations(const std::array<Number, 4>& o
   return result;
 }
 
-/// The same of a cell.
-std::vector<ScaledMatrix<Rational>> mixed_rotations(const Orientations& orientations,
-                                                    const OrientationBox<Rational>& cell);
+/// The same of a cell, in integers: numerators and divisors of all matrices have a common factor.
+std::vector<ScaledMatrix<Integer>> mixed_rotations(const Orientations& orientations,
+                                                   const OrientationBox<Rational>& cell);
 
 }  // namespace nef::planner

@@ -81,7 +81,8 @@ py::list range_of(const plan::Mechanism& mechanism) {
   return result;
 }
 
-// The joint is ("hinge", axis, point), ("slider", direction) or ("screw", axis, point, pitch).
+// The joint is ("hinge", axis, point), ("slider", direction), ("screw", axis, point, pitch) or ("four-bar", axis, pivot
+// of the crank, pivot of the rocker, pin of the crank, pin of the rocker, whether the rocker moves the part).
 py::list range_of_motion(const Polyhedron& moving, const std::vector<Polyhedron>& fixed, const py::tuple& joint,
                          py::handle low, py::handle high) {
   plan::Mechanism m;
@@ -94,6 +95,11 @@ py::list range_of_motion(const Polyhedron& moving, const std::vector<Polyhedron>
     m.joint = plan::Joint::slider(direction);
   } else if (kind == "hinge") {
     m.joint = plan::Joint::hinge(direction, to_triple(joint[2], "a point"));
+  } else if (kind == "four-bar") {
+    const auto point = [&](std::size_t i) { return to_triple(joint[i], "a point"); };
+    using Link = plan::FourBar::Link;
+    m.joint = plan::Joint::four_bar(direction, {point(2), point(3)}, {point(4), point(5)},
+                                    joint[6].cast<bool>() ? Link::kRocker : Link::kCoupler);
   } else {
     m.joint = plan::Joint::screw(direction, to_triple(joint[2], "a point"), to_rational(joint[3]));
   }

@@ -4,9 +4,12 @@
 // apps/planner/no_path/ that has no test of its own.
 #include "apps/planner/no_path/no_rigid_path.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <random>
 #include <string>
 
+#include "apps/planner/no_path/chart_images.h"
 #include "apps/planner/proofs/proof_file.h"
 #include "nef/base/error.h"
 #include "tests/planner/scene_helpers.h"
@@ -41,6 +44,75 @@ TEST_CASE("a cube does not pass a hole that is smaller than it") {
   CHECK(complaint_about(answer.proof->claim, elsewhere) == "the scene has another start or goal");
   elsewhere.turns_freely = false;
   CHECK(complaint_about(answer.proof->claim, elsewhere) == "the robot of the scene does not turn");
+}
+
+// The vertices of a piece, turned about a point, sorted.
+std::vector<Rational3> turned(const std::vector<Rational3>& piece, const Rational3& about, const Quaternion& q) {
+  const Matrix3 m = rotation_between(q, q);
+  std::vector<Rational3> result;
+  for (const Rational3& vertex : piece) {
+    const Rational3 v = minus(vertex, about);
+    result.push_back({dot(m[0], v), dot(m[1], v), dot(m[2], v)});
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+TEST_CASE("charts in which a robot looks as in another one are its images") {
+  struct Robot {
+    std::string text;
+    Rational3 reference;
+    std::size_t images;
+  };
+  const Orientations all = Orientations::all();
+  std::mt19937 random(5);
+  for (const Robot& robot :
+       {Robot{"box(-1,-2,-3, 1,2,3)", {0, 0, 0}, 3}, Robot{"box(0,0,0, 1,2,3)", {ratio(1, 2), 1, ratio(3, 2)}, 3},
+        Robot{"box(0,0,0, 1,2,3)", {0, 0, 0}, 0},
+        Robot{"box(-3,-1,0, -1,1,1) + box(-1,-1/2,0, 1,1/2,1/2) + box(1,-1,0, 3,1,1)", {0, 0, 0}, 2}}) {
+    INFO(robot.text);
+    const Scene scene = scene_of(R"J({"robot": ")J" + robot.text + R"J(", "obstacles": ["box(9,9,9, 10,10,10)"]})J");
+    PathProof::Claim claim;
+    const RigidBody body = RigidBody::of_set(scene.robot);
+    for (const RigidBody::Piece& piece : body.pieces()) claim.robot.push_back(piece.mesh.vertices);
+    const std::vector<std::optional<ChartImage>> images = images_of_charts(claim, all, robot.reference);
+    std::size_t count = 0;
+    for (std::uint32_t chart = 0; chart < 4; ++chart) {
+      if (!images[chart]) continue;
+      ++count;
+      const ChartImage& image = *images[chart];
+      REQUIRE(image.of < chart);
+      for (int i = 0; i < 5; ++i) {
+        Quaternion q = all.charts()[image.of].origin;
+        Quaternion there = all.charts()[chart].origin;
+        for (std::size_t k = 0; k < 3; ++k) {
+          const Rational at = ratio(static_cast<long>(random() % 9) - 4, 4);
+          for (std::size_t c = 0; c < 4; ++c) {
+            q[c] += at * all.charts()[image.of].directions[k][c];
+            there[c] += image.signs[k] * at * all.charts()[chart].directions[image.becomes[k]][c];
+          }
+        }
+        for (std::size_t piece = 0; piece < claim.robot.size(); ++piece) {
+          CHECK(turned(claim.robot[image.pieces[piece]], robot.reference, there) ==
+                turned(claim.robot[piece], robot.reference, q));
+        }
+      }
+    }
+    CHECK(count == robot.images);
+    // With a box the origin must stay, too.
+    claim.box = {{{0, 0, 0}, {1, 1, 1}}};
+    const auto in_box = images_of_charts(claim, all, robot.reference);
+    const auto left = std::count_if(in_box.begin(), in_box.end(), [](const auto& image) { return image.has_value(); });
+    CHECK(static_cast<std::size_t>(left) == (is_zero(robot.reference) ? robot.images : 0));
+  }
+}
+
+TEST_CASE("a dumbbell, which one half turn takes onto itself, does not pass a slit") {
+  const std::string dumbbell =
+      "box(-3/2,-1/2,-1/2, -1/2,1/2,1/2) + box(-1/2,-1/4,-1/2, 1/2,1/4,1/4) + box(1/2,-1/2,-1/2, 3/2,1/2,1/2)";
+  const NoPathAnswer answer = prove_no_rigid_path(scene_of(wall(dumbbell, "box(-1,-1/16,-1/16, 1,1/16,1/16)", kInBox)));
+  REQUIRE(answer.proof.has_value());
+  CHECK_FALSE(complaint_about(*answer.proof).has_value());
 }
 
 TEST_CASE("spoilt proofs do not hold") {

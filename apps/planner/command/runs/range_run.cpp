@@ -20,7 +20,7 @@ namespace {
 using nlohmann::json;
 
 const char* joint_text(Joint::Kind kind) {
-  return std::array{"hinge", "slider", "screw"}.at(static_cast<std::size_t>(kind));
+  return std::array{"hinge", "slider", "screw", "four-bar"}.at(static_cast<std::size_t>(kind));
 }
 
 // Some 18 digits beyond the point.

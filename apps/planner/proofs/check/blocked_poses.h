@@ -30,12 +30,20 @@ class BlockedPoses {
                                                      std::uint32_t obstacle, std::span<const Rational3> common) const;
 
  private:
+  // normal * x <= offset, in integers: their products need no common divisors.
+  struct Face {
+    Integer3 normal;
+    Integer offset;
+  };
+  // Those of a piece, seen from a point; none for a flat piece.
+  static std::vector<Face> faces_of(const std::vector<Rational3>& vertices, const Rational3& seen_from);
+
   const Orientations& orientations_;
-  std::vector<std::vector<HalfSpace>> robot_;  // seen from the reference; none for flat pieces
-  std::vector<std::vector<HalfSpace>> obstacles_;
+  std::vector<std::vector<Face>> robot_;  // seen from the reference
+  std::vector<std::vector<Face>> obstacles_;
 };
 
 /// The product of the matrix and a vector, without the division.
-Rational3 scaled_product(const ScaledMatrix<Rational>& m, const Rational3& v);
+Integer3 scaled_product(const ScaledMatrix<Integer>& m, const Integer3& v);
 
 }  // namespace nef::planner

@@ -11,6 +11,7 @@
 #include "apps/planner/orientation/orientation_cells.h"
 #include "apps/planner/proofs/check/blocked_poses.h"
 #include "apps/planner/proofs/check/check_parts.h"
+#include "nef/geometry/integer_vector.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef::planner {
@@ -159,10 +160,13 @@ class CellsCheck {
   [[nodiscard]] CellsComplaint complaint_about_beyond(const PoseBox& box, const PathProof::PoseCell& cell) const {
     if (!claim_.box || cell.side > 5) return "there is no such side of the box";
     const std::size_t k = cell.side % 3;
-    const std::vector<ScaledMatrix<Rational>> matrices = mixed_rotations(orientations_, orientations_of(box));
+    const std::vector<ScaledMatrix<Integer>> matrices = mixed_rotations(orientations_, orientations_of(box));
     if (matrices.empty()) return "a box beyond a side has too many orientations";
-    for (const ScaledMatrix<Rational>& m : matrices) {
-      const Rational reference = scaled_product(m, cells_.reference)[k] / m.scale;
+    const Integer scale = common_denominator(cells_.reference);
+    const Integer3 scaled_reference = times(cells_.reference, scale);
+    for (const ScaledMatrix<Integer>& m : matrices) {
+      Rational reference(scaled_product(m, scaled_reference)[k], m.scale * scale);
+      reference.canonicalize();
       if (cell.side < 3 ? box.high[k] - reference >= (*claim_.box)[0][k]
                         : box.low[k] - reference <= (*claim_.box)[1][k]) {
         return "a box is not beyond the side of the claim's box";

@@ -176,6 +176,7 @@ TEST_CASE("planner --assembly: turns, parts that move at once, and clearance in 
   CHECK(step["turning"]["quaternions"].size() == step["path"].size());
   CHECK(text_of(folder.file("p.glb")).find("\"rotation\"") != std::string::npos);
   CHECK(std::filesystem::file_size(folder.file("p.html")) > 1000);
+  CHECK(planner(folder, "--assembly " + data_file("bayonet") + " --proof " + folder.file("x.proof")).code == 2);
   const std::string six = data_file("six_tetrahedra");
   CHECK(planner(folder, "--assembly " + six).code == 1);
   const Run at_once = planner(folder, "--assembly " + six + " --simultaneous --json -o " + folder.file("s.glb"));

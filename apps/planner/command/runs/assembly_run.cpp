@@ -159,6 +159,10 @@ int tell_free_directions(const Arguments& a, const Assembly& assembly) {
 // The proof that nothing of the first parts that are stuck can begin to move.
 void write_proof(const Arguments& a, const Disassembly& answer, const Assembly& assembly) {
   if (a.proof.empty()) return;
+  if (assembly.turns()) {
+    throw InputError("--proof " + a.proof + ": such proofs are about translations only; remove 'rotation' from " +
+                     a.assembly);
+  }
   if (answer.inseparable.empty()) {
     throw InputError("--proof " + a.proof + ": no parts are inseparable, so there is nothing to prove");
   }

@@ -34,6 +34,8 @@ std::span<const Fuzzer> fuzzers() {
              fuzz_written},
       Fuzzer{"planning", "robots and obstacles of all dimensions on a grid, by breadth-first search", fuzz_planning},
       Fuzzer{"assemblies", "assemblies of unit cubes, by a search over all sets of parts", fuzz_assemblies},
+      Fuzzer{"turning-assemblies", "parts that turn about one axis in a pocket of a block, by a grid of poses",
+             fuzz_turning_assemblies},
       Fuzzer{"turning", "flat robots that turn in a plane anywhere in space, by a fine grid of poses", fuzz_turning},
       Fuzzer{"motions", "moving and turning solids and triangle soups, at exact poses of each motion", fuzz_motions},
       Fuzzer{"no-paths",

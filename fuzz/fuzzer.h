@@ -75,6 +75,7 @@ void fuzz_sums(const Case& the_case);
 void fuzz_convolutions(const Case& the_case);
 void fuzz_parts(const Case& the_case);
 void fuzz_assemblies(const Case& the_case);
+void fuzz_turning_assemblies(const Case& the_case);
 void fuzz_planning(const Case& the_case);
 void fuzz_turning(const Case& the_case);
 void fuzz_motions(const Case& the_case);

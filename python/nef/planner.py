@@ -21,7 +21,7 @@ import numpy
 
 from . import _of_application, _planner
 from ._nef import Polyhedron
-from .assemblies import (Disassembly, DisassemblyStep, FreeDirections, Inseparable, Undecided, disassemble, free_directions,
+from .assemblies import (Disassembly, DisassemblyStep, FreeDirections, Inseparable, Turning, Undecided, disassemble, free_directions,
                          prove_inseparable, complaint_about_inseparable)
 from .errors import Error, InputError, InputWarning
 from .mechanisms import (CertifiedLinkagePath, CheckedMotion, FourBar, Hinge, Joint, Linkage, Overlap, PairVerdict, PartVerdict, RangeEnd, RangePart, Screw, Slider,
@@ -32,7 +32,7 @@ Exact3 = Tuple[Fraction, Fraction, Fraction]
 __all__ = ["Cell", "CertifiedLinkagePath", "CertifiedPath", "CheckedMotion", "CollidingPose", "Component", "Disassembly", "DisassemblyStep",
            "FourBar", "FreeDirections", "Hinge", "Inseparable", "Joint", "Linkage", "Overlap", "PairVerdict",
            "PartVerdict", "Plan", "Proof", "RangeEnd", "RangePart", "Rotation", "Scene", "Screw", "Slider", "Stop", "Thinness",
-           "TightPassage", "TurningProof", "Undecided", "Verdict", "Widest", "complaint_about_inseparable", "disassemble",
+           "TightPassage", "Turning", "TurningProof", "Undecided", "Verdict", "Widest", "complaint_about_inseparable", "disassemble",
            "free_directions", "prove_inseparable", "range_of_motion", "read", "reads_urdf", "verdict"]
 
 __getattr__ = _of_application(__name__, __all__, {"plan": "Scene(robot, obstacles).plan(start, goal)", "certify": "Scene(robot, obstacles).certify(path)", "prove": "Scene(robot, obstacles).prove()"})

@@ -54,6 +54,28 @@ def test_a_part_in_a_closed_box_cannot_move(needs):
     assert stuck.nothing_moves and stuck.blocked_by["core"] == ["shell"]
 
 
+def test_parts_that_turn_move_at_once_or_keep_clear(needs):
+    planner = needs("planner")
+    # A bar across a slot: it turns a quarter, and leaves upward.
+    block = nef.box((-3, -3, 0), (3, 3, 4)) - nef.box((-2, -2, 1), (2, 2, 2)) - nef.box((-2, -1, 1), (2, 1, 4))
+    parts = {"block": block.closure().regularize(), "bar": nef.box(("-1/2", "-3/2", "9/8"), ("1/2", "3/2", "15/8"))}
+    assert planner.disassemble(parts).status == "inseparable"
+    step = planner.disassemble(parts, rotation=(0, 0, 1)).steps[0]
+    assert step.turning is not None and len(step.turning.quaternions) == len(step.path)
+    assert step.vectors == {}
+    with pytest.raises(nef.InputError):
+        planner.disassemble(parts, rotation="SO(2)")
+    pair = {"a": nef.box((0, 0, 0), (1, 1, 1)), "b": nef.box((2, 0, 0), (3, 1, 1))}
+    assert planner.disassemble(pair, keep_clear=1).status == "sequence"
+    assert planner.disassemble(pair, keep_clear="3/2").status == "too_close"
+    stuck = {"block": nef.box((0, 0, 0), (7, 3, 3)) - nef.box((1, 1, 1), (2, 2, 2)).interior()
+             - nef.box((4, 1, 1), (5, 2, 2)).interior(),
+             "left": nef.box((1, 1, 1), (2, 2, 2)), "right": nef.box((4, 1, 1), (5, 2, 2))}
+    found = planner.disassemble(stuck).inseparable[0]
+    assert len(found.parts) == 3 and len(found.interlocked) == 2 and found.interlocked_is_least
+    assert planner.disassemble(stuck, simultaneous=True).status == "inseparable"
+
+
 def test_overlaps_and_bad_parts(needs, tmp_path):
     planner = needs("planner")
     a, b = nef.box((0, 0, 0), (2, 2, 2)), nef.box((1, 1, 1), (3, 3, 3))

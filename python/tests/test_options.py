@@ -115,6 +115,7 @@ PROGRAMS = {
         "--obstacle": "nef.planner.Linkage.certify(obstacles)",
         "--exact": "nef.planner.verdict(exact)",
         "--assembly": "nef.planner.disassemble(parts)",
+        "--simultaneous": "nef.planner.disassemble(simultaneous)",
         "--free-directions": "nef.planner.free_directions(part)",
         "--range": "nef.planner.range_of_motion(moving)",
         "--verdict": "nef.planner.verdict(parts)",

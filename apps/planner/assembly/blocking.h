@@ -7,11 +7,13 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "apps/planner/assembly/contact_cones.h"
 #include "apps/planner/assembly/entry_faces.h"
+#include "apps/planner/assembly/separation.h"
 #include "nef/base/monitor.h"
 #include "nef/mesh/mesh.h"
 #include "nef/polyhedron.h"
@@ -29,6 +31,10 @@ class Blocking {
   [[nodiscard]] std::size_t size() const { return boxes_.size(); }
   /// The box around a part.
   [[nodiscard]] const std::array<Rational3, 2>& box(std::size_t part) const { return boxes_[part]; }
+  /// The box around some parts, at least one.
+  [[nodiscard]] std::array<Rational3, 2> box_of(const PartSet& parts) const;
+  /// True if the box of a, moved from one vector to another, overlaps that of b on the way.
+  [[nodiscard]] bool boxes_meet_on(std::size_t a, std::size_t b, const Rational3& from, const Rational3& to) const;
   [[nodiscard]] const Polyhedron& interior(std::size_t part) const { return interiors_[part]; }
   /// Two parts whose interiors meet where they are; nothing if there are none.
   std::optional<std::pair<std::size_t, std::size_t>> overlapping();
@@ -40,15 +46,30 @@ class Blocking {
   bool blocks_at_once(std::size_t a, std::size_t b, const Rational3& d);
   /// The directions in which b keeps a from beginning to move.
   std::vector<OpenCone> blocked_cones(std::size_t a, std::size_t b);
+  /// The directions in which some parts keep others from beginning to move.
+  std::set<OpenCone> blocked_cones(const PartSet& moving, const PartSet& stay);
+  /// True if there are such directions. (Then each of the two blocks the other one.)
+  bool blocks_some_beginning(std::size_t a, std::size_t b);
+  /// True if no set of some parts may begin to move in direction d: each of them is led to from each other one along
+  /// parts that block each other at once.
+  bool are_tied_at_once(const PartSet& parts, const Rational3& d);
   /// Directions such that whatever set of parts may begin to move in some direction may begin to move in one of these:
   /// the vertices of the arrangement on the sphere of the planes in which parts touch, and of the coordinate planes.
   /// (In a direction next to a vertex no fewer parts block than at it, since what blocks is open.) In order of their
-  /// size. Nothing if there are more than a few ten thousand.
+  /// size. Nothing if there are more than a few thousand.
   std::optional<std::vector<Rational3>> directions();
 
  private:
+  using Pair = std::pair<std::size_t, std::size_t>;
+  /// The cones in which the first of two parts that touch is blocked, by the numbers of their normals.
+  struct Tie {
+    Pair parts;
+    std::vector<std::vector<std::size_t>> cones;
+  };
   [[nodiscard]] bool boxes_meet(std::size_t a, std::size_t b) const;
-  [[nodiscard]] bool box_meets_ray(std::size_t a, std::size_t b, const Rational3& d) const;
+  [[nodiscard]] bool box_meets(std::size_t a, std::size_t b, const Rational3& from, const Rational3& d,
+                               std::optional<Rational> most) const;
+  const std::vector<Tie>& ties();
   const EntryFaces& entry_faces(std::size_t part, const Rational3& d);
 
   Monitor monitor_;
@@ -58,6 +79,9 @@ class Blocking {
   std::vector<std::optional<Mesh>> meshes_;
   Rational3 direction_;  // of the faces below
   std::map<std::size_t, EntryFaces> faces_;
+  std::map<Rational3, std::map<Pair, bool>> blocks_;  // of each direction, what was asked
+  std::optional<std::vector<Tie>> ties_;
+  std::vector<Rational3> normals_;  // of the ties, each once
 };
 
 }  // namespace nef::planner

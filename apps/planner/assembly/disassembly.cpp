@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// A stack holds sets of parts that are still together. For each set, `straight_step` goes through the candidate
-// directions; the minimal closed sets of the blocking graph are what can leave along a ray, and the one of fewest parts
-// and smallest box is taken. Otherwise `planned_step` asks SeparationSearch, with two tests: some direction lets the
-// moving parts begin, and the component of free space that contains the origin is unbounded. That free space is the
-// intersection of those of pairs, each computed once. The path then leads to the nearest of six points on the bounds of
-// the free space's boundary. What leaves and what stays are pushed back on the stack.
+// A stack holds sets of parts that are still together. For each set, `straight_step` looks for a straight motion: of a
+// single part, smallest box first, then of the minimal closed sets of the blocking graphs of the candidate directions.
+// Otherwise `planned_step` asks SeparationSearch, with two tests: the moving parts can begin, and they can leave. What
+// leaves and what stays are pushed back on the stack. What does not come apart so is tried in more ways, as far as
+// these are asked for: parts in different directions at once, and sets that turn. Whatever is known of some parts is
+// known while they are together, whoever else is there, so cores are kept from step to step.
 #include "apps/planner/assembly/disassembly.h"
 
 #include <algorithm>
@@ -13,11 +13,11 @@
 #include <map>
 #include <numeric>
 
-#include "apps/minkowski/minkowski.h"
 #include "apps/planner/assembly/blocking.h"
 #include "apps/planner/assembly/closed_sets.h"
-#include "apps/planner/free_space/free_space.h"
-#include "apps/planner/path/path.h"
+#include "apps/planner/assembly/first_motions.h"
+#include "apps/planner/assembly/simultaneous.h"
+#include "apps/planner/assembly/ways_out.h"
 #include "apps/planner/path/simple_points.h"
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
@@ -35,12 +35,13 @@ PartSet all_parts(const Assembly& assembly) {
 
 class TakingApart {
  public:
-  TakingApart(const Assembly& assembly, const std::optional<unsigned>& digits, const Monitor& monitor)
+  TakingApart(const Assembly& assembly, const DisassemblyOptions& options, const Monitor& monitor)
       : assembly_(assembly),
-        digits_(digits),
+        options_(options),
         told_(monitor),
         monitor_(monitor.quiet()),
-        blocking_(assembly.parts, monitor_) {}
+        blocking_(assembly.parts, monitor_),
+        ways_out_(assembly, blocking_, options.digits, monitor_) {}
 
   Disassembly run() {
     std::vector<PartSet> together{all_parts(assembly_)};
@@ -50,23 +51,35 @@ class TakingApart {
       if (parts.size() < 2) continue;
       told_.tell_progress("taking apart", result_.steps.size(), assembly_.parts.size() - 1);
       proved_below_ = 1;
-      std::optional<DisassemblyStep> step;
       try {
         if (directions_.empty() && !begin()) break;
-        step = straight_step(parts);
-        if (!step) step = planned_step(parts);
+        std::optional<DisassemblyStep> step = next_step(parts);
+        if (!step && options_.simultaneous) step = simultaneous_step(parts);
+        all_proved_ = true;
+        if (!step && assembly_.turns()) step = turning_step(parts);
+        if (step) {
+          for (PartSet& rest : parts_after(*step)) together.push_back(std::move(rest));
+          result_.steps.push_back(std::move(*step));
+        } else if (all_proved_) {
+          result_.inseparable.push_back(stuck(parts));
+        } else {
+          result_.undecided.push_back({parts, proved_below_});
+        }
       } catch (const Interrupted&) {
         result_.undecided.push_back({parts, proved_below_});
       }
-      if (!step) continue;              // stuck, or undecided
-      together.push_back(step->parts);  // comes after the rest
-      together.push_back(step->stay);
-      result_.steps.push_back(std::move(*step));
     }
+    for (Inseparable& stuck : result_.inseparable) find_interlocked(stuck);
     return std::move(result_);
   }
 
  private:
+  // In which directions a part can begin to move among those that touch it.
+  struct Ways {
+    PartSet touching;
+    std::vector<Rational3> directions;
+  };
+
   // Finds the directions to try; false if parts overlap.
   bool begin() {
     result_.overlap = blocking_.overlapping();
@@ -89,13 +102,74 @@ class TakingApart {
     return result;
   }
 
+  // What is together after a step; what stays comes first.
+  static std::vector<PartSet> parts_after(const DisassemblyStep& step) {
+    if (step.vectors.empty()) return {step.parts, step.stay};  // the last one is looked at next
+    std::map<Rational3, PartSet> groups;
+    for (const std::size_t part : step.stay) groups[Rational3{}].push_back(part);
+    for (std::size_t i = 0; i < step.parts.size(); ++i) groups[step.vectors[i]].push_back(step.parts[i]);
+    std::vector<PartSet> result;
+    for (auto& [vector, group] : groups) {
+      std::sort(group.begin(), group.end());
+      result.push_back(std::move(group));
+    }
+    return result;
+  }
+
+  // Nothing if no set of the parts can leave the others by translations.
+  std::optional<DisassemblyStep> next_step(const PartSet& parts) {
+    if (std::optional<DisassemblyStep> step = single_step(parts)) return step;
+    if (tied_in_all_directions(parts)) return std::nullopt;
+    if (std::optional<DisassemblyStep> step = straight_step(parts)) return step;
+    return planned_step(parts);
+  }
+
+  // A single part that leaves in one straight motion, the one with the smallest box; or all others leave it.
+  std::optional<DisassemblyStep> single_step(const PartSet& parts) {
+    std::vector<std::pair<Rational, std::size_t>> by_size;
+    for (const std::size_t part : parts) by_size.emplace_back(size_of({part}).second, part);
+    std::sort(by_size.begin(), by_size.end());
+    for (const auto& [size, part] : by_size) {
+      monitor_.check_interruption();
+      const PartSet others = without(parts, {part});
+      for (const Rational3& d : ways_of(part, others)) {
+        const bool leaves = std::none_of(others.begin(), others.end(),
+                                         [&](std::size_t other) { return blocking_.blocks(part, other, d); });
+        if (leaves) return straight({part}, others, d);
+      }
+    }
+    return std::nullopt;
+  }
+
+  // Directions in which a part can begin to move. They change only if one leaves that touches it.
+  const std::vector<Rational3>& ways_of(std::size_t part, const PartSet& others) {
+    PartSet touching;
+    for (const std::size_t other : others) {
+      if (blocking_.blocks_some_beginning(part, other)) touching.push_back(other);
+    }
+    std::optional<Ways>& known = ways_[part];
+    if (!known || known->touching != touching) {
+      std::vector<Rational3> ways = free_ways(blocking_.blocked_cones({part}, touching), monitor_);
+      known = Ways{std::move(touching), std::move(ways)};
+    }
+    return known->directions;
+  }
+
+  // True if the candidate directions show that no set can begin to move.
+  bool tied_in_all_directions(const PartSet& parts) {
+    return tells_all_ && std::all_of(directions_.begin(), directions_.end(), [&](const Rational3& d) {
+             monitor_.check_interruption();
+             return blocking_.are_tied_at_once(parts, d);
+           });
+  }
+
   // Who blocks whom among some parts, by their places in the list.
-  template <typename Blocks>
-  static BlockingGraph graph(const PartSet& parts, const Blocks& blocks) {
+  BlockingGraph graph(const PartSet& parts, const Rational3& d) {
     BlockingGraph graph(parts.size());
     for (std::size_t i = 0; i < parts.size(); ++i) {
+      monitor_.check_interruption();
       for (std::size_t j = 0; j < parts.size(); ++j) {
-        if (i != j && blocks(parts[i], parts[j])) graph[i].push_back(j);
+        if (i != j && blocking_.blocks(parts[i], parts[j], d)) graph[i].push_back(j);
       }
     }
     return graph;
@@ -117,9 +191,8 @@ class TakingApart {
     for (std::size_t i = 0; i < directions_.size(); ++i) {
       if (i >= kEnough && best && best_size.first == 1) break;
       const Rational3& d = directions_[i];
-      const BlockingGraph blocked =
-          graph(parts, [&](std::size_t a, std::size_t b) { return blocking_.blocks(a, b, d); });
-      for (const std::vector<std::size_t>& closed : minimal_closed_sets(blocked)) {
+      if (blocking_.are_tied_at_once(parts, d)) continue;
+      for (const std::vector<std::size_t>& closed : minimal_closed_sets(graph(parts, d))) {
         PartSet moving = named(parts, closed);
         if (moving.size() == parts.size()) continue;
         PartSet stay = without(parts, moving);
@@ -131,36 +204,33 @@ class TakingApart {
         const std::pair<std::size_t, Rational> size = size_of(moving);
         if (best && best_size <= size) continue;
         best_size = size;
-        best = DisassemblyStep{moving, stay, {Rational3{}, end_of(moving, stay, along)}, true, {}};
+        best = straight(moving, stay, along);
       }
     }
     return best;
   }
 
+  [[nodiscard]] DisassemblyStep straight(const PartSet& moving, const PartSet& stay, const Rational3& d) const {
+    DisassemblyStep step;
+    step.parts = moving;
+    step.stay = stay;
+    step.path = {Rational3{}, end_of(moving, stay, d)};
+    step.straight = true;
+    return step;
+  }
+
   // How many parts, and the volume of the box around them.
   [[nodiscard]] std::pair<std::size_t, Rational> size_of(const PartSet& parts) const {
-    const std::array<Rational3, 2> box = box_of(parts);
+    const std::array<Rational3, 2> box = blocking_.box_of(parts);
     Rational volume = 1;
     for (std::size_t i = 0; i < 3; ++i) volume *= box[1][i] - box[0][i];
     return {parts.size(), volume};
   }
 
-  [[nodiscard]] std::array<Rational3, 2> box_of(const PartSet& parts) const {
-    std::array<Rational3, 2> box = blocking_.box(parts.front());
-    for (const std::size_t part : parts) {
-      const std::array<Rational3, 2>& other = blocking_.box(part);
-      for (std::size_t i = 0; i < 3; ++i) {
-        box[0][i] = std::min(box[0][i], other[0][i]);
-        box[1][i] = std::max(box[1][i], other[1][i]);
-      }
-    }
-    return box;
-  }
-
   // How far along d until the boxes are apart, by a quarter of the moving one.
   [[nodiscard]] Rational3 end_of(const PartSet& moving, const PartSet& stay, const Rational3& d) const {
-    const std::array<Rational3, 2> mine = box_of(moving);
-    const std::array<Rational3, 2> theirs = box_of(stay);
+    const std::array<Rational3, 2> mine = blocking_.box_of(moving);
+    const std::array<Rational3, 2> theirs = blocking_.box_of(stay);
     std::optional<Rational> least;
     for (std::size_t i = 0; i < 3; ++i) {
       if (d[i] == 0) continue;
@@ -170,141 +240,206 @@ class TakingApart {
       const Rational t = std::max(Rational(0), Rational(way / d[i]));
       if (!least || t < *least) least = t;
     }
-    if (!digits_) return {*least * d[0], *least * d[1], *least * d[2]};
+    if (!options_.digits) return {*least * d[0], *least * d[1], *least * d[2]};
     // A decimal multiple of a whole vector is as rounded; a little farther does no harm.
     const Integer denominator = common_denominator(d);
-    const Rational t = rounded_up(*least / denominator, *digits_) * denominator;
+    const Rational t = rounded_up(*least / denominator, *options_.digits) * denominator;
     return {t * d[0], t * d[1], t * d[2]};
   }
 
-  // True if some of the parts can begin to move, the others at rest. The directions must tell all.
-  bool may_begin(const PartSet& moving, const PartSet& stay) {
-    return std::any_of(directions_.begin(), directions_.end(), [&](const Rational3& d) {
-      return std::none_of(moving.begin(), moving.end(), [&](std::size_t a) {
-        return std::any_of(stay.begin(), stay.end(), [&](std::size_t b) { return blocking_.blocks_at_once(a, b, d); });
-      });
-    });
-  }
-
-  // True if in every direction all parts are tied together at once.
-  bool nothing_moves(const PartSet& parts) {
-    return tells_all_ && std::all_of(directions_.begin(), directions_.end(), [&](const Rational3& d) {
-             const auto blocks = [&](std::size_t a, std::size_t b) { return blocking_.blocks_at_once(a, b, d); };
-             return minimal_closed_sets(graph(parts, blocks)).front().size() == parts.size();
-           });
-  }
-
   std::optional<DisassemblyStep> planned_step(const PartSet& parts) {
-    std::vector<Separates> tests;
-    if (tells_all_) {
-      tests.emplace_back([this](const PartSet& moving, const PartSet& stay) { return may_begin(moving, stay); });
-    }
-    tests.emplace_back([this](const PartSet& moving, const PartSet& stay) {
-      monitor_.check_interruption();
-      return leads_out(FreeSpace(free_of(moving, stay)));
-    });
-    if (nothing_moves(parts)) return stuck(parts, true);
-    SeparationSearch search(parts, tests);
+    std::optional<ExactPath> way;  // of the set that was asked about last
+    const std::array<HeldBy, 2> tests{[this](const PartSet& moving, const PartSet& stay) -> std::optional<Core> {
+                                        if (free_cone(blocking_.blocked_cones(moving, stay), monitor_))
+                                          return std::nullopt;
+                                        return Core{moving, stay};
+                                      },
+                                      [this, &way](const PartSet& moving, const PartSet& stay) -> std::optional<Core> {
+                                        std::variant<ExactPath, PartSet> found = ways_out_.leave(moving, stay);
+                                        if (const PartSet* const holding = std::get_if<PartSet>(&found))
+                                          return Core{moving, *holding};
+                                        way = std::get<ExactPath>(std::move(found));
+                                        return std::nullopt;
+                                      }};
+    SeparationSearch search(parts, tests, cores_);
+    const auto keep = [&] { cores_.insert(cores_.end(), search.found().begin(), search.found().end()); };
     try {
       const std::optional<PartSet> moving = search.run();
-      if (!moving) return stuck(parts, false);
-      const PartSet stay = without(parts, *moving);
-      ExactPath way = way_out(*moving, stay);
-      return DisassemblyStep{*moving, stay, std::move(way.points), false, std::move(way.unrounded)};
+      keep();
+      if (!moving) return std::nullopt;
+      DisassemblyStep step;
+      step.parts = *moving;
+      step.stay = without(parts, *moving);
+      step.path = std::move(way->points);
+      step.unrounded = std::move(way->unrounded);
+      return step;
     } catch (const Interrupted&) {
-      proved_below_ = search.proved_below();
+      keep();
+      proved_below_ = assembly_.turns() ? 1 : search.proved_below();
       throw;
     }
   }
 
-  std::nullopt_t stuck(const PartSet& parts, bool nothing_moves) {
-    Inseparable result{parts, nothing_moves, {}};
-    for (const std::size_t a : parts) {
-      for (const std::size_t b : parts) {
-        if (a == b) continue;
-        const bool in_the_way = std::any_of(directions_.begin(), directions_.end(),
-                                            [&](const Rational3& d) { return blocking_.blocks(a, b, d); });
-        if (in_the_way) result.blocked_by.emplace_back(a, b);
+  // Parts that leave each other at once, in different directions.
+  std::optional<DisassemblyStep> simultaneous_step(const PartSet& parts) {
+    const std::optional<std::vector<Rational3>> vectors = simultaneous_motions(blocking_, parts, monitor_);
+    if (!vectors) return std::nullopt;
+    const Rational end = simultaneous_end(blocking_, parts, *vectors);
+    DisassemblyStep step;
+    step.straight = true;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const Rational3& v = (*vectors)[i];
+      if (is_zero(v)) {
+        step.stay.push_back(parts[i]);
+        continue;
       }
+      step.parts.push_back(parts[i]);
+      step.vectors.push_back({end * v[0], end * v[1], end * v[2]});
     }
-    result_.inseparable.push_back(std::move(result));
+    return step;
+  }
+
+  // A set that leaves with turns, of the fewest parts: all sets of a number of parts are asked about, but those of
+  // which it is known that parts of them do not leave others. all_proved_ becomes false if some set is neither.
+  std::optional<DisassemblyStep> turning_step(const PartSet& parts) {
+    constexpr std::size_t kMostUndecided = 40;  // sets; after that there is little hope
+    std::size_t undecided = 0;
+    for (std::size_t size = 1; 2 * size <= parts.size(); ++size) {
+      proved_below_ = all_proved_ ? size : proved_below_;
+      std::vector<bool> chosen(parts.size(), false);
+      std::fill(chosen.begin(), chosen.begin() + static_cast<std::ptrdiff_t>(size), true);
+      do {
+        if (2 * size == parts.size() && !chosen.front()) break;  // the other side has been asked about
+        PartSet moving;
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+          if (chosen[i]) moving.push_back(parts[i]);
+        }
+        const PartSet stay = without(parts, moving);
+        if (is_ruled_out(moving, stay)) continue;
+        TurningWayAnswer found = turning_way(assembly_, moving, stay, {options_.max_cells}, monitor_);
+        if (found.status == TurningWayAnswer::Status::kWay) {
+          DisassemblyStep step;
+          step.parts = moving;
+          step.stay = stay;
+          for (const RigidPose& pose : found.way->poses) step.path.push_back(pose.position);
+          step.turning = std::move(found.way);
+          return step;
+        }
+        if (found.status == TurningWayAnswer::Status::kNone) {
+          turning_cores_.push_back({moving, stay});
+          turning_cores_.push_back({stay, moving});
+          continue;
+        }
+        all_proved_ = false;
+        if (++undecided == kMostUndecided) return std::nullopt;
+      } while (std::prev_permutation(chosen.begin(), chosen.end()));
+    }
     return std::nullopt;
   }
 
-  // Where a may be while b rests. (b, while a rests, may be at the opposite vectors.)
-  const Polyhedron& free_of_pair(std::size_t a, std::size_t b) {
-    std::optional<Polyhedron>& known = free_of_pairs_[{a, b}];
-    if (known) return *known;
-    const auto other = free_of_pairs_.find({b, a});
-    if (other != free_of_pairs_.end() && other->second) {
-      known = minkowski::negate(*other->second, monitor_);
-    } else {
-      minkowski::MinkowskiOptions options;
-      options.monitor = monitor_;
-      known = minkowski::configuration_space(assembly_.parts[a], std::array{assembly_.parts[b]}, std::nullopt, options);
+  [[nodiscard]] bool is_ruled_out(const PartSet& moving, const PartSet& stay) const {
+    return std::any_of(turning_cores_.begin(), turning_cores_.end(), [&](const Core& core) {
+      return std::includes(moving.begin(), moving.end(), core.moving.begin(), core.moving.end()) &&
+             std::includes(stay.begin(), stay.end(), core.stay.begin(), core.stay.end());
+    });
+  }
+
+  // True if no set of some parts can begin to move.
+  bool nothing_moves(const PartSet& parts) {
+    if (tells_all_) return tied_in_all_directions(parts);
+    const std::array<HeldBy, 1> tests{[this](const PartSet& moving, const PartSet& stay) -> std::optional<Core> {
+      if (free_cone(blocking_.blocked_cones(moving, stay), monitor_)) return std::nullopt;
+      return Core{moving, stay};
+    }};
+    std::vector<Core> known;
+    std::copy_if(cores_.begin(), cores_.end(), std::back_inserter(known),
+                 [](const Core& core) { return core.test == 0; });
+    return !SeparationSearch(parts, tests, known).run();
+  }
+
+  // What is told of parts that do not come apart.
+  Inseparable stuck(const PartSet& parts) {
+    Inseparable result;
+    result.parts = parts;
+    result.interlocked = parts;
+    try {
+      result.nothing_moves = !assembly_.turns() && nothing_moves(parts);
+      find_blockers(result);
+    } catch (const Interrupted&) {  // the answer stands without them
     }
-    return *known;
+    return result;
   }
 
-  // Where some parts may be while others rest. Solids overlap iff two of their parts do.
-  Polyhedron free_of(const PartSet& moving, const PartSet& stay) {
-    std::vector<Polyhedron> sets;
-    for (const std::size_t a : moving) {
-      for (const std::size_t b : stay) sets.push_back(free_of_pair(a, b));
-    }
-    return intersect_all(sets, monitor_);
-  }
-
-  // True if there is a way from where the parts are to infinity.
-  static bool leads_out(const FreeSpace& free) {
-    const CellId here = free.locate(ExactPoint(Rational3{}));
-    NEF_ASSERT(free.is_free(here));
-    return !free.components()[free.component(here)].bounded;
-  }
-
-  // A path out of the way of the others, which there must be.
-  ExactPath way_out(const PartSet& moving, const PartSet& stay) {
-    const FreeSpace free(free_of(moving, stay));
-    // All of the boundary is inside these bounds, so whoever is on them or beyond is out.
-    const std::array<Rational3, 2> bounds = free.bounds();
-    const auto out_of = [&](std::size_t side, std::size_t i) {
-      const Rational& bound = bounds[side][i];
-      if (!digits_) return bound;
-      return side == 1 ? rounded_up(bound, *digits_) : Rational(-rounded_up(-bound, *digits_));
-    };
-    std::optional<ExactPath> best;
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (const std::size_t side : {0, 1}) {
-        Rational3 out;
-        out[i] = out_of(side, i);
-        PathOptions options;
-        options.thorough = false;
-        options.digits = digits_;
-        std::optional<ExactPath> path = find_path(free, Rational3{}, out, options, monitor_);
-        NEF_ASSERT(path.has_value());
-        if (!best || path->length < best->length) best = std::move(path);
+  // Who is in the way of whom.
+  void find_blockers(Inseparable& result) {
+    constexpr std::size_t kEnough = 26;  // directions for pairs that do not touch
+    const PartSet& parts = result.parts;
+    for (const std::size_t a : parts) {
+      for (const std::size_t b : parts) {
+        if (a == b) continue;
+        const auto end = directions_.begin() + static_cast<std::ptrdiff_t>(std::min(directions_.size(), kEnough));
+        const bool in_the_way =
+            blocking_.blocks_some_beginning(a, b) ||
+            std::any_of(directions_.begin(), end, [&](const Rational3& d) { return blocking_.blocks(a, b, d); });
+        if (in_the_way) result.blocked_by.emplace_back(a, b);
       }
     }
-    return std::move(*best);
+  }
+
+  // Some of the parts that do not come apart; nothing if all do.
+  std::optional<PartSet> rest_of(const PartSet& parts) {
+    std::vector<PartSet> together{parts};
+    while (!together.empty()) {
+      const PartSet next = together.back();
+      together.pop_back();
+      if (next.size() < 2) continue;
+      const std::optional<DisassemblyStep> step = next_step(next);
+      if (!step) return next;
+      together.push_back(step->parts);
+      together.push_back(step->stay);
+    }
+    return std::nullopt;
+  }
+
+  // Leaves out parts as long as something of the others does not come apart.
+  void find_interlocked(Inseparable& stuck) {
+    if (assembly_.turns()) {  // what comes apart by translations only says too little
+      stuck.interlocked_is_least = stuck.parts.size() == 2;
+      return;
+    }
+    try {
+      for (const std::size_t part : stuck.parts) {
+        if (stuck.interlocked.size() == 2) break;
+        if (!std::binary_search(stuck.interlocked.begin(), stuck.interlocked.end(), part)) continue;
+        std::optional<PartSet> rest = rest_of(without(stuck.interlocked, {part}));
+        if (rest) stuck.interlocked = std::move(*rest);
+      }
+    } catch (const Interrupted&) {
+      stuck.interlocked_is_least = false;
+    }
   }
 
   const Assembly& assembly_;
-  std::optional<unsigned> digits_;
+  DisassemblyOptions options_;
   Monitor told_;  // of steps
   Monitor monitor_;
   std::size_t proved_below_ = 1;  // of the parts that are looked at
   Blocking blocking_;
+  WaysOut ways_out_;
   std::vector<Rational3> directions_;
   bool tells_all_ = false;  // if nothing begins to move in these directions, then in no other one
-  std::map<std::pair<std::size_t, std::size_t>, std::optional<Polyhedron>> free_of_pairs_;
+  std::map<std::size_t, std::optional<Ways>> ways_;  // of each part
+  std::vector<Core> cores_;
+  std::vector<Core> turning_cores_;  // with turns
+  bool all_proved_ = true;           // of the parts that are looked at
   Disassembly result_;
 };
 
 }  // namespace
 
-Disassembly take_apart(const Assembly& assembly, const std::optional<unsigned>& digits, const Monitor& monitor) {
+Disassembly take_apart(const Assembly& assembly, const DisassemblyOptions& options, const Monitor& monitor) {
   try {
-    return TakingApart(assembly, digits, monitor).run();
+    return TakingApart(assembly, options, monitor).run();
   } catch (const Interrupted&) {  // before anything was known
     Disassembly answer;
     answer.undecided.push_back({all_parts(assembly)});

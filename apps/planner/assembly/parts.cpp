@@ -10,12 +10,27 @@
 #include "nef/io/file_bytes.h"
 
 namespace nef::planner {
+namespace {
+
+void read_turns(const JsonReader& value, Assembly& assembly) {
+  if (value.value().is_object()) {
+    value.require_keys({"axis"});
+    assembly.turning_axis = direction_of(value["axis"]);
+    return;
+  }
+  if (value.value() != "SO(3)") {
+    value.fail(R"J(must be "SO(3)", for turns about all axes, or about one axis, as in {"axis": "z"})J");
+  }
+  assembly.turns_freely = true;
+}
+
+}  // namespace
 
 Assembly parse_assembly(const std::string& text, const std::string& folder, const std::string& name,
                         const MeshOptions& meshes) {
   const nlohmann::json value = parse_exact_json(text, name);
   const JsonReader root(value, name);
-  root.require_keys({"parts"});
+  root.require_keys({"parts"}, {"rotation"});
   if (!value["parts"].is_object()) root.fail(R"(an assembly is {"parts": {"name": file or expression, ...}})");
   Assembly assembly;
   assembly.name = std::filesystem::path(name).stem().string();
@@ -24,6 +39,7 @@ Assembly parse_assembly(const std::string& text, const std::string& folder, cons
     assembly.parts.push_back(solid_of(part, folder, meshes, assembly.messages));
     assembly.names.push_back(item.key());
   }
+  if (root.has("rotation")) read_turns(root["rotation"], assembly);
   if (assembly.parts.empty()) throw InputError(name + ": the assembly has no parts");
   return assembly;
 }

@@ -25,23 +25,6 @@ bool holds_any(const PartSet& set, const PartSet& some) {
                      [&set](std::size_t part) { return std::binary_search(set.begin(), set.end(), part); });
 }
 
-// Leaves out of a set whatever can be left out while `still` holds, larger runs first.
-template <typename Still>
-void shrink(PartSet& set, const Still& still) {
-  for (std::size_t run = (set.size() + 1) / 2; run > 0; run = run > 1 ? (run + 1) / 2 : 0) {
-    for (std::size_t begin = 0; begin < set.size() && set.size() > 1;) {
-      PartSet rest = set;
-      const auto first = rest.begin() + static_cast<std::ptrdiff_t>(begin);
-      rest.erase(first, first + static_cast<std::ptrdiff_t>(std::min(run, set.size() - begin)));
-      if (!rest.empty() && still(rest)) {
-        set = std::move(rest);
-      } else {
-        begin += run;
-      }
-    }
-  }
-}
-
 // Sets that hold `moving` and nothing of `fixed`.
 struct Branch {
   PartSet moving;
@@ -60,23 +43,54 @@ PartSet without(const PartSet& all, const PartSet& some) {
   return rest;
 }
 
-bool SeparationSearch::ask(const Separates& test, const PartSet& moving, const PartSet& stay) {
-  ++questions_;
-  return test(moving, stay);
+SeparationSearch::SeparationSearch(const PartSet& parts, std::span<const HeldBy> tests, std::span<const Core> known)
+    : parts_(parts), tests_(tests) {
+  for (const Core& core : known) {
+    if (holds_all(parts_, core.moving) && holds_all(parts_, core.stay)) cores_.push_back(core);
+  }
+  known_ = cores_.size();
 }
 
-void SeparationSearch::learn(const Separates& test, PartSet moving, PartSet stay) {
-  shrink(stay, [&](const PartSet& fewer) { return !ask(test, moving, fewer); });
-  shrink(moving, [&](const PartSet& fewer) { return !ask(test, fewer, stay); });
-  cores_.push_back({moving, stay});
-  cores_.push_back({std::move(stay), std::move(moving)});
+std::optional<Core> SeparationSearch::ask(std::size_t test, const PartSet& moving, const PartSet& stay) {
+  ++questions_;
+  std::optional<Core> held = tests_[test](moving, stay);
+  if (held) held->test = test;
+  return held;
+}
+
+// Leaves out of one side of a core whatever can be left out, larger runs first.
+void SeparationSearch::shrink(Core& core, PartSet Core::*side) {
+  for (std::size_t run = ((core.*side).size() + 1) / 2; run > 0; run = run > 1 ? (run + 1) / 2 : 0) {
+    for (std::size_t begin = 0; begin < (core.*side).size() && (core.*side).size() > 1;) {
+      Core fewer = core;
+      PartSet& rest = fewer.*side;
+      const auto first = rest.begin() + static_cast<std::ptrdiff_t>(begin);
+      rest.erase(first, first + static_cast<std::ptrdiff_t>(std::min(run, rest.size() - begin)));
+      std::optional<Core> held;
+      if (!rest.empty()) held = ask(core.test, fewer.moving, fewer.stay);
+      if (held) {
+        core = std::move(*held);
+      } else {
+        begin += run;
+      }
+    }
+  }
+}
+
+void SeparationSearch::learn(Core core) {
+  shrink(core, &Core::stay);
+  shrink(core, &Core::moving);
+  cores_.push_back(core);
+  std::swap(core.moving, core.stay);
+  cores_.push_back(std::move(core));
 }
 
 bool SeparationSearch::separates(const PartSet& moving) {
   const PartSet stay = without(parts_, moving);
-  for (const Separates& test : tests_) {
-    if (ask(test, moving, stay)) continue;
-    learn(test, moving, stay);
+  for (std::size_t test = 0; test < tests_.size(); ++test) {
+    std::optional<Core> held = ask(test, moving, stay);
+    if (!held) continue;
+    learn(std::move(*held));
     return false;
   }
   return true;

@@ -17,9 +17,16 @@ using PartSet = std::vector<std::size_t>;
 /// The parts of `all` that are not in `some`.
 PartSet without(const PartSet& all, const PartSet& some);
 
-/// Whether `moving` can move away from `stay` when all other parts are left out. Must be symmetric in its arguments,
-/// and what is true for some parts must be true for fewer of them.
-using Separates = std::function<bool(const PartSet& moving, const PartSet& stay)>;
+/// If all of `moving` moves, something of `stay` has to, too, as long as both are there.
+struct Core {
+  PartSet moving;
+  PartSet stay;
+  std::size_t test = 0;  ///< the number of the test that said so
+};
+
+/// Nothing if `moving` can move away from `stay` when all other parts are left out; otherwise parts of both that hold
+/// each other already, or just both. What is possible must be so with both sides exchanged, and for fewer parts.
+using HeldBy = std::function<std::optional<Core>(const PartSet& moving, const PartSet& stay)>;
 
 /// The search for a set that all tests let go. A test that says no is asked about ever fewer parts, until both of its
 /// sets are as small as can be; this *core* then rules out every set that holds the one side of it and nothing of the
@@ -28,8 +35,9 @@ using Separates = std::function<bool(const PartSet& moving, const PartSet& stay)
 /// found, or a smaller set.
 class SeparationSearch {
  public:
-  /// At least two parts. `tests` should be in the order of their costs; they must outlive the search.
-  SeparationSearch(const PartSet& parts, std::span<const Separates> tests) : parts_(parts), tests_(tests) {}
+  /// At least two parts. `tests` should be in the order of their costs; they must outlive the search. `known` are cores
+  /// of an earlier search; those with other parts than these say nothing and are left out.
+  SeparationSearch(const PartSet& parts, std::span<const HeldBy> tests, std::span<const Core> known = {});
 
   /// A set of the fewest parts, at most half of all, that can leave the others; nothing if no set can, which is a
   /// proof. Exponential in the number of parts at worst; the number of cores decides. What a test throws ends the
@@ -38,23 +46,22 @@ class SeparationSearch {
 
   /// No set of fewer parts can leave: known also if run() was left by an exception.
   [[nodiscard]] std::size_t proved_below() const { return proved_below_; }
+  /// Cores that were found, each with the same one with its sides exchanged. Known also if run() was left.
+  [[nodiscard]] std::span<const Core> found() const { return std::span(cores_).subspan(known_); }
   /// How often tests were asked.
   [[nodiscard]] std::size_t questions() const { return questions_; }
 
  private:
-  /// If all of `moving` moves, something of `stay` has to, too.
-  struct Core {
-    PartSet moving;
-    PartSet stay;
-  };
-  bool ask(const Separates& test, const PartSet& moving, const PartSet& stay);
+  std::optional<Core> ask(std::size_t test, const PartSet& moving, const PartSet& stay);
   bool separates(const PartSet& moving);
-  void learn(const Separates& test, PartSet moving, PartSet stay);
+  void shrink(Core& core, PartSet Core::*side);
+  void learn(Core core);
   [[nodiscard]] std::optional<PartSet> parts_wanted(const PartSet& moving, const PartSet& fixed) const;
 
   PartSet parts_;
-  std::span<const Separates> tests_;
+  std::span<const HeldBy> tests_;
   std::vector<Core> cores_;
+  std::size_t known_ = 0;  // of the cores
   std::size_t proved_below_ = 1;
   std::size_t questions_ = 0;
 };

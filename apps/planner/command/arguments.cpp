@@ -23,7 +23,8 @@ A scene is JSON: {"robot": SHAPE, "obstacles": [SHAPE, ...], "start": [x, y, z],
 "SO(3)" (then they are {"position": [x, y, z], "quaternion": [w, x, y, z]})}. SHAPE is the path of a mesh or nef file, or an expression such as "box(0,0,0, 9,3,3) - box(4,1,1, 5,2,2)". Numbers are exact:
 0.1 is one tenth, "1/3" a third. OMPL.app's .cfg files are read too.
 
-An assembly is {"parts": {"name": SHAPE, ...}}, each part at its assembled place. A mechanism is {"moving": SHAPE,
+An assembly is {"parts": {"name": SHAPE, ...}, "rotation": ROTATION}, each part at its assembled place; with a
+ROTATION, "SO(3)" or {"axis": "z" or [1, 2, 2]}, parts may also turn. A mechanism is {"moving": SHAPE,
 "fixed": [SHAPE, ...], "joint": JOINT}, JOINT one of
 {"type": "hinge", "axis": "z", "point": [x, y, z], "range": [0, 360]},
 {"type": "slider", "direction": [0, 0, 1], "range": [0, 5]},
@@ -34,7 +35,7 @@ An assembly is {"parts": {"name": SHAPE, ...}}, each part at its assembled place
 Exit codes: 0 a path; 1 proof that there is none (with --path: the given path leaves free space);
 2 bad input or usage; 3 start or goal is not free; 4 (--ompl only) no answer within the time; 5 undecided
 (--time, --max-cells).
-With --assembly: 0 a sequence, 1 inseparable, 3 parts overlap, 5 undecided within the --time.
+With --assembly: 0 a sequence, 1 inseparable, 3 parts overlap (or are closer than --keep-clear), 5 undecided.
 With --range: 0, 5 undecided.
 With --verdict: 0, 3 parts overlap, 5 a range is undecided.
 With --linkage: 0 every motion of the path is free, 1 one collides, 5 undecided.
@@ -77,7 +78,9 @@ void declare_clearance(CLI::App& app, Arguments& a) {
                "Find the largest r so that the robot still passes when it is enlarged by the cube from -r to r");
   app.add_option("--precision", a.precision, "Relative width of the interval that --widest and --widest-box report")
       ->default_str("1/1000");
-  app.add_option("--keep-clear", a.keep_clear, "Keep at least this distance from all obstacles")->type_name("D");
+  app.add_option("--keep-clear", a.keep_clear,
+                 "Keep at least this distance from all obstacles, or with --assembly from all parts that rest")
+      ->type_name("D");
   app.add_option("--speed", a.limits.speed, "Speed of the reference point, for time stamps of way-points")
       ->check(nef::positive());
   app.add_option("--acceleration", a.limits.acceleration, "Its acceleration (default: unlimited); needs --speed")
@@ -107,9 +110,9 @@ std::vector<Exclusion> exclusions() {
         "--proof",     "--check-proof", "--ompl",   "--benchmark"}},
       {"--assembly",
        {kScene.data(), "--start", "--goal", "--contact", "--tight", "--path", "--queries", "--ompl", "--benchmark",
-        "--widest", "--widest-box", "--keep-clear", "--speed", "--prefer", "--clearance", "--raw", "--quick",
-        "--min-dimension", "--se3"}},
-      {"--free-directions", {"--digits", "--proof", "--check-proof"}},
+        "--widest", "--widest-box", "--speed", "--prefer", "--clearance", "--raw", "--quick", "--min-dimension",
+        "--se3"}},
+      {"--free-directions", {"--digits", "--proof", "--check-proof", "--simultaneous", "--keep-clear"}},
       {"--benchmark", {"--ompl"}},
       {"--path", {"--ompl", "--benchmark"}},
       {"--queries", {"--path", "--page", "--ompl", "--benchmark"}},
@@ -166,6 +169,9 @@ void check_usage(const Arguments& a) {
   for (const auto& [option, others] : exclusions()) {
     if (a.app->count(option) > 0) exclude(a, option, others);
   }
+  if (a.simultaneous && a.assembly.empty()) throw InputError("--simultaneous is for --assembly");
+  if (!a.assembly.empty() && !a.keep_clear.empty())
+    exclude(a, "--assembly with --keep-clear", {"--proof", "--check-proof"});
   if (a.exact && a.verdict.empty()) throw InputError("--exact is for --verdict");
   if (a.linkage.empty() && (!a.srdf.empty() || !a.obstacles.empty())) {
     throw InputError("--srdf and --obstacle are for --linkage");
@@ -192,8 +198,13 @@ void check_usage(const Arguments& a) {
 void declare(CLI::App& app, Arguments& a) {
   a.app = &app;
   app.add_option("scene", a.scene, "Scene (.json, or OMPL.app .cfg)")->type_name("FILE");
-  app.add_option("--assembly", a.assembly, "Take an assembly (.json) apart by translations, or prove that it is stuck")
+  app.add_option("--assembly", a.assembly,
+                 "Take an assembly (.json) apart by translations, and turns if it has a rotation, or prove that it is "
+                 "stuck")
       ->type_name("FILE");
+  app.add_flag("--simultaneous", a.simultaneous,
+               "With --assembly: where no set of parts can leave as one, try parts that move at once in different "
+               "directions");
   app.add_option("--free-directions", a.free_directions,
                  "With --assembly: the exact cone of directions in which this part can begin to move")
       ->type_name("PART");
@@ -253,8 +264,8 @@ void declare(CLI::App& app, Arguments& a) {
   app.add_flag("--se3", a.se3, "Write path matrices with seven columns x y z qx qy qz qw");
   app.add_option(
       "--max-cells", a.max_cells,
-      "For a robot that turns: use at most this many cells of angles, slices if it turns freely, or boxes of "
-      "poses in a proof");
+      "For a robot that turns, or each set of parts of an assembly that turns: use at most this many cells of angles, "
+      "slices if it turns freely, or boxes of poses in a proof");
   app.add_option(
          "--proof", a.proof,
          "Write a proof (.proof) that the path is free, that it collides, or that there is none; with --tight, that "

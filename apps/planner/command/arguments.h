@@ -31,6 +31,7 @@ struct Arguments {
   std::string srdf;
   std::vector<std::string> obstacles;  ///< of the linkage
   bool exact = false;
+  bool simultaneous = false;
   std::vector<std::string> outputs;
   std::string page;
   std::string start;

@@ -8,6 +8,7 @@
 
 #include "apps/planner/assembly/disassembly.h"
 #include "apps/planner/assembly/free_directions.h"
+#include "apps/planner/clearance/clear_disassembly.h"
 #include "apps/planner/proofs/inseparable_proof.h"
 #include "binding/apps/planner.h"
 #include "binding/base/bindings.h"
@@ -54,14 +55,34 @@ py::list stops_of(const std::vector<plan::FreeDirections::Stop>& stops) {
 
 namespace {
 
-// (steps, inseparable, undecided, overlap); a step is (parts, stay, path, straight, unrounded), what is inseparable
-// (parts, nothing_moves, blocked_by), what is undecided (parts, proved_below).
+// How parts turn: (pivot, quaternions), or None.
+py::object turning_of(const plan::DisassemblyStep& step) {
+  if (!step.turning) return py::none();
+  py::list quaternions;
+  for (const plan::RigidPose& pose : step.turning->poses) {
+    const auto& q = pose.quaternion;
+    quaternions.append(py::make_tuple(to_fraction(q[0]), to_fraction(q[1]), to_fraction(q[2]), to_fraction(q[3])));
+  }
+  return py::make_tuple(from_triple(step.turning->pivot), quaternions);
+}
+
+// (steps, inseparable, undecided, overlap); a step is (parts, stay, path, straight, unrounded, turning, vectors), what
+// is inseparable (parts, nothing_moves, blocked_by, interlocked, interlocked_is_least), what is undecided (parts,
+// proved_below). `axis` may be None.
 py::tuple take_apart(const std::vector<std::string>& names, const std::vector<Polyhedron>& parts,
-                     const std::optional<unsigned>& digits, const std::optional<double>& seconds) {
-  const plan::Assembly assembly = assembly_of(names, parts);
-  const plan::Disassembly found = call(kSmallCall, [assembly, digits, seconds](const Monitor& monitor) {
+                     const std::optional<unsigned>& digits, const std::optional<double>& seconds, bool turns_freely,
+                     const py::object& axis, bool simultaneous, const py::object& clearance, std::size_t max_cells) {
+  plan::Assembly assembly = assembly_of(names, parts);
+  assembly.turns_freely = turns_freely;
+  if (!axis.is_none()) assembly.turning_axis = to_triple(axis, "rotation");
+  std::optional<Rational> distance;
+  if (!clearance.is_none()) distance = to_rational(clearance);
+  const plan::DisassemblyOptions options{digits, simultaneous, max_cells};
+  const plan::Disassembly found = call(kSmallCall, [=](const Monitor& monitor) {
     const TimeLimit limit(seconds, monitor);
-    plan::Disassembly answer = plan::take_apart(closed(assembly, monitor), digits, limit.monitor());
+    const plan::Assembly solids = closed(assembly, monitor);
+    plan::Disassembly answer = distance ? plan::take_apart_clear(solids, *distance, options, limit.monitor())
+                                        : plan::take_apart(solids, options, limit.monitor());
     monitor.check_interruption();
     return answer;
   });
@@ -69,11 +90,14 @@ py::tuple take_apart(const std::vector<std::string>& names, const std::vector<Po
   for (const plan::DisassemblyStep& step : found.steps) {
     py::list path;
     for (const Rational3& point : step.path) path.append(from_triple(point));
-    steps.append(py::make_tuple(step.parts, step.stay, path, step.straight, step.unrounded));
+    py::list vectors;
+    for (const Rational3& vector : step.vectors) vectors.append(from_triple(vector));
+    steps.append(py::make_tuple(step.parts, step.stay, path, step.straight, step.unrounded, turning_of(step), vectors));
   }
   py::list inseparable;
   for (const plan::Inseparable& stuck : found.inseparable) {
-    inseparable.append(py::make_tuple(stuck.parts, stuck.nothing_moves, stuck.blocked_by));
+    inseparable.append(py::make_tuple(stuck.parts, stuck.nothing_moves, stuck.blocked_by, stuck.interlocked,
+                                      stuck.interlocked_is_least));
   }
   py::list undecided;
   for (const plan::Undecided& open : found.undecided) undecided.append(py::make_tuple(open.parts, open.proved_below));

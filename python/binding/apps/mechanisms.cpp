@@ -58,7 +58,8 @@ py::tuple verdict(const std::vector<std::string>& names, const std::vector<Polyh
 // (names, parts, messages) of a file.
 py::tuple read_parts(const std::string& path) {
   const plan::Assembly assembly = call(kSmallCall, [path](const Monitor&) { return plan::read_assembly(path); });
-  return py::make_tuple(assembly.names, assembly.parts, assembly.messages);
+  const py::object axis = assembly.turning_axis ? py::object(from_triple(*assembly.turning_axis)) : py::none();
+  return py::make_tuple(assembly.names, assembly.parts, assembly.messages, assembly.turns_freely, axis);
 }
 
 // (measure, lower, upper, stops); the bounds are equal if the value is rational. A stop is (item, part, item of it).

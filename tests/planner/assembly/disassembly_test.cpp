@@ -2,6 +2,7 @@
 //
 // Assemblies come apart, or are proved not to: against a lattice search for assemblies of unit cubes, by sweeping every
 // step, and in scenes whose answers are known.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -14,6 +15,7 @@
 #include "apps/program/reports/exact_json.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/support/fixed_cases.h"
+#include "tests/support/oblique_rotation.h"
 #include "tests/support/report_shape.h"
 
 namespace nef::planner::test {
@@ -189,6 +191,73 @@ TEST_CASE("assemblies of unit cubes come apart iff a search on the lattice throu
   CHECK(planned > 0);
 }
 
+// A block of unit cubes cut into parts that come apart in some order: each is carved out of what is left so that it can
+// leave straight.
+std::vector<Cells> carved_block(unsigned seed, int size, std::size_t count) {
+  std::mt19937 random(seed);
+  Cells left;
+  for (int x = 0; x < size; ++x) {
+    for (int y = 0; y < size; ++y) {
+      for (int z = 0; z < size; ++z) left.insert({x, y, z});
+    }
+  }
+  const auto any_of_cells = [&random](const Cells& cells) {
+    return *std::next(cells.begin(), static_cast<std::ptrdiff_t>(random() % cells.size()));
+  };
+  // What is in the way of a cube that leaves along an axis, and the cube.
+  const auto column = [&](Cell at, std::size_t axis, int sign) {
+    Cells result;
+    for (; at[axis] >= 0 && at[axis] < size; at[axis] += sign) {
+      if (left.contains(at)) result.insert(at);
+    }
+    return result;
+  };
+  const std::size_t wanted = left.size() / count;
+  std::vector<Cells> parts;
+  while (parts.size() + 1 < count && left.size() > wanted) {
+    const std::size_t axis = random() % 3;
+    const int sign = random() % 2 == 0 ? 1 : -1;
+    Cells part = column(any_of_cells(left), axis, sign);
+    for (int tries = 0; tries < 60 && part.size() < wanted; ++tries) {
+      Cell next = any_of_cells(part);
+      next[random() % 3] += random() % 2 == 0 ? 1 : -1;
+      if (left.contains(next)) part.merge(column(next, axis, sign));
+    }
+    for (const Cell& cell : part) left.erase(cell);
+    parts.push_back(std::move(part));
+  }
+  parts.push_back(left);
+  std::shuffle(parts.begin(), parts.end(), random);
+  return parts;
+}
+
+TEST_CASE("eighty parts without clearance come apart, upright and turned") {
+  Assembly assembly = assembly_of(carved_block(1, 9, 80));
+  REQUIRE(assembly.parts.size() >= 80);
+  const Disassembly answer = take_apart(assembly);
+  CHECK(answer.inseparable.empty());
+  CHECK(answer.undecided.empty());
+  CHECK(answer.steps.size() == assembly.parts.size() - 1);
+  for (Polyhedron& part : assembly.parts) part = transform(part, nef::test::oblique_rotation());
+  CHECK(take_apart(assembly).steps.size() == assembly.parts.size() - 1);
+}
+
+TEST_CASE("an answer that takes too long has the steps that are known") {
+  const Assembly assembly = assembly_of(carved_block(2, 6, 20));
+  std::size_t most = 0;
+  for (const std::size_t questions : {10U, 1000U, 100000U, 100000000U}) {
+    std::size_t asked = 0;
+    const StopQuestion question([&] { return ++asked > questions; });
+    const Disassembly some = take_apart(assembly, {}, question.monitor());
+    CHECK(some.overlap == std::nullopt);
+    CHECK(some.inseparable.empty());
+    CHECK(some.undecided.empty() == (some.steps.size() == assembly.parts.size() - 1));
+    CHECK(some.steps.size() >= most);
+    most = some.steps.size();
+  }
+  CHECK(most == assembly.parts.size() - 1);
+}
+
 TEST_CASE("minimal closed sets are those that a search through all sets finds") {
   for (unsigned seed = 0; seed < nef::test::fewer(200); ++seed) {
     std::mt19937 random(seed);
@@ -298,7 +367,7 @@ TEST_CASE("way-points of assemblies in bounded decimals") {
   CHECK(decimals_of(exact.steps.front().path) == -1);
   CHECK(exact.steps.front().unrounded.empty());
   for (const unsigned digits : {1U, 3U, 8U}) {
-    const Disassembly answer = take_apart(odd, digits);
+    const Disassembly answer = take_apart(odd, {.digits = digits});
     REQUIRE(answer.steps.size() == 1);
     CHECK(answer.inseparable.empty());
     CHECK(complaint(odd, answer) == "");
@@ -319,7 +388,7 @@ TEST_CASE("way-points of assemblies in bounded decimals") {
   shear.linear[1][2] = Rational(1, 3);
   const Polyhedron peg = transform(make_box({1, 1, 1}, {2, 2, 3}), shear);
   wedge.parts = {subtract(transform(make_box({0, 0, 0}, {3, 3, 3}), shear), peg), peg};
-  const Disassembly way = take_apart(wedge, 2);
+  const Disassembly way = take_apart(wedge, {.digits = 2});
   REQUIRE(way.steps.size() == 1);
   CHECK(way.steps.front().straight);
   CHECK(complaint(wedge, way) == "");

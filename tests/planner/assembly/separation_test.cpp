@@ -35,6 +35,15 @@ bool lets_go(const std::vector<Tie>& ties, unsigned moving, unsigned stay) {
   });
 }
 
+// A test that only says yes or no.
+template <class Separates>
+HeldBy held_unless(const Separates& separates) {
+  return [separates](const PartSet& moving, const PartSet& stay) -> std::optional<Core> {
+    if (separates(moving, stay)) return std::nullopt;
+    return Core{moving, stay};
+  };
+}
+
 // Ties between a few parts each.
 std::vector<Tie> random_ties(std::mt19937& random, unsigned parts) {
   std::vector<Tie> ties(1 + random() % (2 * parts));
@@ -66,11 +75,11 @@ TEST_CASE("a set of parts leaves iff a look at every set finds one") {
     }
     PartSet parts;
     for (std::size_t i = 0; i < count; ++i) parts.push_back(i);
-    std::vector<Separates> tests;
+    std::vector<HeldBy> tests;
     for (const std::vector<Tie>* ties : {&cheap, &costly}) {
-      tests.emplace_back([ties](const PartSet& moving, const PartSet& stay) {
+      tests.push_back(held_unless([ties](const PartSet& moving, const PartSet& stay) {
         return lets_go(*ties, bits_of(moving), bits_of(stay));
-      });
+      }));
     }
     SeparationSearch search(parts, tests);
     const std::optional<PartSet> moving = search.run();
@@ -109,8 +118,8 @@ TEST_CASE("forty parts in pairs that leave together need few questions") {
     }
     return false;
   };
-  const std::vector<Separates> tests{
-      [&](const PartSet& moving, const PartSet& stay) { return !tied(moving, stay) && !tied(stay, moving); }};
+  const std::vector<HeldBy> tests{held_unless(
+      [&](const PartSet& moving, const PartSet& stay) { return !tied(moving, stay) && !tied(stay, moving); })};
   SeparationSearch search(parts, tests);
   CHECK(search.run() == PartSet{2 * kPairs - 2, 2 * kPairs - 1});
   CHECK(search.questions() < 1000);
@@ -119,10 +128,10 @@ TEST_CASE("forty parts in pairs that leave together need few questions") {
 TEST_CASE("a search that is left tells how far it came") {
   const PartSet parts{0, 1, 2, 3, 4, 5};
   int asked = 0;
-  const std::vector<Separates> tests{[&asked](const PartSet& moving, const PartSet& stay) {
+  const std::vector<HeldBy> tests{held_unless([&asked](const PartSet& moving, const PartSet& stay) {
     if (std::min(moving.size(), stay.size()) > 1 && ++asked > 20) throw std::runtime_error("enough");
     return moving.size() + stay.size() < 6;
-  }};
+  })};
   SeparationSearch search(parts, tests);
   CHECK_THROWS_AS(search.run(), std::runtime_error);
   CHECK(search.proved_below() == 2);

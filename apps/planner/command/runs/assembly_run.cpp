@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // One run: check the options, read the parts, take them apart, write files, print. The report, the text and the layers
-// of pages are made from the same Disassembly. In a page each step takes an equal share of the time, and each part
-// moves along its path at constant speed.
+// of pages (assembly_view.h) are made from the same Disassembly.
 #include "apps/planner/command/runs/runs.h"
 
 #include <iostream>
@@ -10,9 +9,10 @@
 #include "apps/planner/assembly/blocking.h"
 #include "apps/planner/assembly/disassembly.h"
 #include "apps/planner/assembly/free_directions.h"
+#include "apps/planner/clearance/clear_disassembly.h"
 #include "apps/planner/command/findings.h"
 #include "apps/planner/command/report.h"
-#include "apps/planner/command/scene_view.h"
+#include "apps/planner/command/runs/assembly_view.h"
 #include "apps/planner/proofs/inseparable_proof.h"
 #include "apps/program/reports/exact_json.h"
 #include "nef/base/error.h"
@@ -35,8 +35,9 @@ std::string covered_text(const Undecided& open) {
   return "sets of fewer than " + std::to_string(open.proved_below) + " parts";
 }
 
-const char* status_of(const Disassembly& answer) {
-  if (answer.overlap) return "overlap";
+// With a clearance, parts are "too_close" instead of overlapping.
+const char* status_of(const Disassembly& answer, bool with_clearance) {
+  if (answer.overlap) return with_clearance ? "too_close" : "overlap";
   if (!answer.inseparable.empty()) return "inseparable";
   return answer.undecided.empty() ? "sequence" : "undecided";
 }
@@ -59,59 +60,39 @@ json stuck_json(const Inseparable& stuck, const Assembly& assembly) {
   return {{"parts", names_of(stuck.parts, assembly)},
           {"covered", kAllCovered},
           {"nothing_moves", stuck.nothing_moves},
+          {"interlocked", names_of(stuck.interlocked, assembly)},
+          {"interlocked_is_least", stuck.interlocked_is_least},
           {"blocked_by", std::move(blocked)}};
 }
 
-// Each part in a layer of its own. A step takes the same time as any other, along its path at constant speed.
-std::vector<view::Layer> layers_of(const Disassembly& answer, const Assembly& assembly) {
-  std::vector<ShownSet> parts;
-  for (std::size_t part = 0; part < assembly.parts.size(); ++part) {
-    parts.push_back({assembly.names[part], assembly.parts[part], view::palette_color(part)});
-  }
-  std::vector<view::Layer> layers = layers_of(parts);
-  if (answer.steps.empty()) return layers;
-  const double slot = kPlaySeconds / static_cast<double>(answer.steps.size());
-  for (std::size_t part = 0; part < layers.size(); ++part) {
-    view::Motion& motion = layers[part].motion;
-    view::Point at{0, 0, 0};
-    motion.times.push_back(0);
-    motion.offsets.push_back(at);
-    for (std::size_t k = 0; k < answer.steps.size(); ++k) {
-      const DisassemblyStep& step = answer.steps[k];
-      const bool moves = std::find(step.parts.begin(), step.parts.end(), part) != step.parts.end();
-      const view::Point begin = at;
-      double length = 0;
-      for (std::size_t i = 1; moves && i < step.path.size(); ++i) length += distance(step.path[i - 1], step.path[i]);
-      double way = 0;
-      for (std::size_t i = 1; moves && i < step.path.size(); ++i) {
-        way += distance(step.path[i - 1], step.path[i]);
-        for (std::size_t c = 0; c < 3; ++c) at[c] = begin[c] + nearest_double(step.path[i][c]);
-        const double time = slot * (static_cast<double>(k) + way / length);
-        if (!(time > motion.times.back())) continue;
-        motion.times.push_back(time);
-        motion.offsets.push_back(at);
-      }
-      const double end = slot * static_cast<double>(k + 1);
-      if (end > motion.times.back()) {
-        motion.times.push_back(end);
-        motion.offsets.push_back(at);
-      }
-    }
-  }
-  return layers;
+std::string vector_text(const Rational3& v) {
+  std::string text;
+  for (const Rational& x : v) text += ' ' + brief_text(x);
+  return text;
 }
 
-void print(const Disassembly& answer, const Assembly& assembly) {
-  std::cout << status_of(answer);
+void print(const Disassembly& answer, const Assembly& assembly, bool with_clearance) {
+  std::cout << status_of(answer, with_clearance);
   if (answer.overlap) {
     std::cout << ": " << assembly.names[answer.overlap->first] << " and " << assembly.names[answer.overlap->second];
   }
   std::cout << '\n';
   for (const DisassemblyStep& step : answer.steps) {
+    if (!step.vectors.empty()) {
+      std::cout << "at once, in different directions:\n";
+      for (std::size_t i = 0; i < step.parts.size(); ++i) {
+        std::cout << "  " << assembly.names[step.parts[i]] << " to" << vector_text(step.vectors[i]) << '\n';
+      }
+      continue;
+    }
+    if (step.turning) {
+      std::cout << list_of(step.parts, assembly) << ": turning, by " << step.path.size() << " poses, to"
+                << vector_text(step.path.back()) << '\n';
+      continue;
+    }
     std::cout << list_of(step.parts, assembly) << (step.straight ? ": straight" : ": by a path of")
-              << (step.straight ? "" : " " + std::to_string(step.path.size()) + " way-points") << ", to";
-    for (const Rational& x : step.path.back()) std::cout << ' ' << brief_text(x);
-    std::cout << '\n';
+              << (step.straight ? "" : " " + std::to_string(step.path.size()) + " way-points") << ", to"
+              << vector_text(step.path.back()) << '\n';
     std::cout << unrounded_text(step.unrounded);
   }
   for (const Inseparable& stuck : answer.inseparable) {
@@ -125,10 +106,14 @@ void print(const Disassembly& answer, const Assembly& assembly) {
       }
       std::cout << "  " << assembly.names[part] << " is blocked by " << list_of(by, assembly) << '\n';
     }
+    if (stuck.interlocked != stuck.parts) {
+      std::cout << (stuck.interlocked_is_least ? "  interlocked: " : "  interlocked, perhaps with fewer: ")
+                << list_of(stuck.interlocked, assembly) << '\n';
+    }
   }
   for (const Undecided& open : answer.undecided) {
     std::cout << "undecided: " << list_of(open.parts, assembly) << " (covered: " << covered_text(open)
-              << "; try a longer --time)\n";
+              << (assembly.turns() ? "; try a longer --time or more --max-cells)\n" : "; try a longer --time)\n");
   }
 }
 
@@ -174,19 +159,29 @@ int tell_free_directions(const Arguments& a, const Assembly& assembly) {
 // The proof that nothing of the first parts that are stuck can begin to move.
 void write_proof(const Arguments& a, const Disassembly& answer, const Assembly& assembly) {
   if (a.proof.empty()) return;
+  if (assembly.turns()) {
+    throw InputError("--proof " + a.proof + ": such proofs are about translations only; remove 'rotation' from " +
+                     a.assembly);
+  }
   if (answer.inseparable.empty()) {
     throw InputError("--proof " + a.proof + ": no parts are inseparable, so there is nothing to prove");
   }
-  const std::optional<InseparableProof> proof =
-      make_inseparable_proof(assembly, answer.inseparable.front().parts, a.session.monitor);
+  // A few parts that hold each other are a shorter proof, unless these can begin to move by themselves.
+  const Inseparable& stuck = answer.inseparable.front();
+  std::optional<InseparableProof> proof = make_inseparable_proof(assembly, stuck.interlocked, a.session.monitor);
+  if (!proof && stuck.interlocked != stuck.parts) {
+    proof = make_inseparable_proof(assembly, stuck.parts, a.session.monitor);
+  }
   if (!proof) {
     throw InputError(
         "--proof " + a.proof +
         ": some of these parts can begin to move, though none can leave; only parts that cannot move have a proof");
   }
   write_file(a.proof, proof_text(*proof));
-  if (answer.inseparable.size() > 1) {
-    a.session.note(a.proof + " covers only " + list_of(answer.inseparable.front().parts, assembly));
+  if (proof->parts.size() < assembly.parts.size()) {
+    std::string names;
+    for (const InseparableProof::Part& part : proof->parts) names += (names.empty() ? "" : ", ") + part.name;
+    a.session.note(a.proof + " covers only " + names);
   }
 }
 
@@ -201,16 +196,33 @@ int check_assembly_proof(const Arguments& a, const Assembly& assembly) {
                     ": inseparable, " + names, watch);
 }
 
-json assembly_json(const Disassembly& answer, const Assembly& assembly) {
-  json result{
-      {"assembly", assembly.name}, {"status", status_of(answer)}, {"motions", kTranslation}, {"steps", json::array()}};
+// How parts turn: about a pivot, by the quaternions of poses, whose positions are in the path.
+json turning_json(const TurningWay& way) {
+  json quaternions = json::array();
+  for (const RigidPose& pose : way.poses) {
+    json& quaternion = quaternions.emplace_back(json::array());
+    for (const Rational& x : pose.quaternion) quaternion.push_back(to_string(x));
+  }
+  return {{"pivot", exact_json(way.pivot)}, {"quaternions", std::move(quaternions)}};
+}
+
+json assembly_json(const Disassembly& answer, const Assembly& assembly, bool with_clearance) {
+  const char* const motions = assembly.turns_freely ? kRigid : assembly.turns() ? kTranslationAndTurning : kTranslation;
+  json result{{"assembly", assembly.name},
+              {"status", status_of(answer, with_clearance)},
+              {"motions", motions},
+              {"steps", json::array()}};
   for (const DisassemblyStep& step : answer.steps) {
-    result["steps"].push_back({{"parts", names_of(step.parts, assembly)},
-                               {"stay", names_of(step.stay, assembly)},
-                               {"straight", step.straight},
-                               {"path", points_json(step.path)},
-                               {"unrounded", step.unrounded},
-                               {"path_double", double_points_json(step.path)}});
+    json& told = result["steps"].emplace_back(json{{"parts", names_of(step.parts, assembly)},
+                                                   {"stay", names_of(step.stay, assembly)},
+                                                   {"straight", step.straight},
+                                                   {"path", points_json(step.path)},
+                                                   {"unrounded", step.unrounded},
+                                                   {"path_double", double_points_json(step.path)}});
+    if (step.turning) told["turning"] = turning_json(*step.turning);
+    for (std::size_t i = 0; i < step.vectors.size(); ++i) {
+      told["vectors"][assembly.names[step.parts[i]]] = exact_json(step.vectors[i]);
+    }
   }
   for (const Inseparable& stuck : answer.inseparable) {
     result["inseparable"].push_back(stuck_json(stuck, assembly));
@@ -231,14 +243,19 @@ int run_assembly(const Arguments& a) {
   a.session.note_all(assembly.messages);
   if (!a.free_directions.empty()) return tell_free_directions(a, assembly);
   if (!a.check_proof.empty()) return check_assembly_proof(a, assembly);
-  const Disassembly answer = take_apart(assembly, a.path.digits, limit.monitor());
+  const std::size_t max_cells = a.app->count("--max-cells") > 0 ? a.max_cells : DisassemblyOptions().max_cells;
+  const DisassemblyOptions options{a.path.digits, a.simultaneous, max_cells};
+  const Disassembly answer = a.keep_clear.empty()
+                                 ? take_apart(assembly, options, limit.monitor())
+                                 : take_apart_clear(assembly, parse_rational(a.keep_clear), options, limit.monitor());
+  const bool clear = !a.keep_clear.empty();
   tell(a, {"assembly",
            assembly.name,
-           [&] { return assembly_json(answer, assembly); },
+           [&] { return assembly_json(answer, assembly, clear); },
            {{"op", limit.passed(), {}}},
-           [&] { print(answer, assembly); },
+           [&] { print(answer, assembly, clear); },
            nullptr,
-           [&] { return layers_of(answer, assembly); }});
+           [&] { return assembly_layers(answer, assembly); }});
   write_proof(a, answer, assembly);
   if (answer.overlap) return 3;
   if (!answer.inseparable.empty()) return 1;

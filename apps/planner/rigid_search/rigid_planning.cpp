@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Phases of the three searches, each of twice the size of the one before. Slices cost a Minkowski sum each, so of
-// scenes with many pieces fewer are made in a phase. The sizes do not depend on times, so neither does the answer.
+// scenes with many pieces fewer are made in a phase. A proof that takes few boxes is cheaper than the first slices, so
+// it is looked for before them. The sizes do not depend on times, so neither does the answer.
 #include "apps/planner/rigid_search/rigid_planning.h"
 
 #include <algorithm>
@@ -21,6 +22,7 @@ namespace {
 
 constexpr std::size_t kFirstSamples = 500;
 constexpr std::size_t kFirstSlices = 40;
+constexpr std::size_t kFewBoxes = 2500;  // before the first slices
 constexpr std::size_t kFirstBoxes = 10000;
 constexpr std::size_t kLightPairs = 2000;  // pairs of pieces; scenes with more get fewer slices
 
@@ -62,6 +64,7 @@ class RigidPlanning {
         if (is_answer(*path)) return;
       }
       count();
+      if (size == 1 && pairs <= kLightPairs && search_proof(std::min(kFewBoxes, limits_.max_boxes))) return;
       const std::size_t some = kFirstSlices * size * kLightPairs / std::max(pairs, kLightPairs);
       slices = std::min(slices + some, limits_.max_slices);
       if (search_slices(slices)) return;

@@ -6,4 +6,4 @@
 
 /// The version as text, three numbers with dots: of the headers that a program is compiled with. CONTRIBUTING.md, "What
 /// is stable", says what may change between versions.
-#define NEF_VERSION "0.1.0"
+#define NEF_VERSION "1.0.0"

@@ -157,6 +157,49 @@ TEST_CASE("spoilt proofs do not hold") {
   CHECK_THAT(complaint([](PathProof& p) { p.claim.rotations.reset(); }), Contains("boxes of poses"));
 }
 
+// All lengths of a proof, multiplied.
+void scale(PathProof& proof, const Rational& by) {
+  const auto grow = [&](Rational3& v) { v = scaled_by(by, v); };
+  for (ProofPieces* pieces : {&proof.claim.robot, &proof.claim.obstacles}) {
+    for (std::vector<Rational3>& piece : *pieces) std::for_each(piece.begin(), piece.end(), grow);
+  }
+  for (RigidPose& pose : proof.claim.path) grow(pose.position);
+  for (Rational3& corner : *proof.claim.box) grow(corner);
+  grow(proof.cells->reference);
+  for (Rational3& corner : proof.cells->bounds) grow(corner);
+  std::vector<PathProof::PoseCell*> open;
+  for (PathProof::PoseCell& chart : proof.cells->charts) open.push_back(&chart);
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    PathProof::PoseCell& cell = *open[i];
+    if (cell.kind == PathProof::PoseCell::Kind::kCut && cell.axis < 3) cell.at *= by;
+    std::for_each(cell.common.begin(), cell.common.end(), grow);
+    for (PathProof::PoseCell& half : cell.halves) open.push_back(&half);
+  }
+}
+
+// The check compares short numbers in machine words, long ones by Integer.
+TEST_CASE("proofs in long numbers hold as in short ones, and spoilt ones do not") {
+  const NoPathAnswer answer = prove_no_rigid_path(
+      scene_of(wall("box(-1/2,-1/2,-1/2, 1/2,1/2,1/2)", "box(-1,-1/16,-1/16, 1,1/16,1/16)", kInBox)));
+  REQUIRE(answer.proof.has_value());
+  PathProof spoilt = *answer.proof;
+  std::vector<PathProof::PoseCell*> open;
+  for (PathProof::PoseCell& chart : spoilt.cells->charts) open.push_back(&chart);
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    if (open[i]->kind == PathProof::PoseCell::Kind::kBlocked) open[i]->common[3] = open[i]->common[0];
+    for (PathProof::PoseCell& half : open[i]->halves) open.push_back(&half);
+  }
+  for (const char* factor : {"1", "1000000007/3", "100000000000000000000000000000000000000007/3"}) {
+    INFO(factor);
+    PathProof proof = *answer.proof;
+    scale(proof, Rational(factor));
+    CHECK_FALSE(complaint_about(proof).has_value());
+    PathProof off = spoilt;
+    scale(off, Rational(factor));
+    CHECK_THAT(complaint_about(off).value_or("it holds"), Catch::Contains("a point of"));
+  }
+}
+
 TEST_CASE("no proof where there is a path, or the limits are narrow") {
   const std::string cube = "box(-1/2,-1/2,-1/2, 1/2,1/2,1/2)";
   CHECK_FALSE(prove_no_rigid_path(scene_of(wall(cube, "box(-1,-1/2,-1/2, 1,1/2,1/2)", kInBox)), {.max_cells = 200})

@@ -147,7 +147,7 @@ class PoseGrid {
 
 using Square = std::array<int, 2>;
 
-constexpr int kWidth = 5;  // of the block, in squares
+constexpr int kBlockWidth = 5;  // of the block, in squares
 
 // A pocket of a block of squares: a room, and a way out along one row or column, which may be closed. A part that lies
 // across the way has to turn.
@@ -161,7 +161,7 @@ std::set<Square> random_room(Choices& choices) {
   const std::size_t axis = choices.below(2);
   const int row = choices.between(1, axis == 0 ? second : first);
   const int wall = choices.one_in(4) ? 1 : 0;
-  for (int i = 1; i < kWidth - wall; ++i) result.insert(axis == 0 ? Square{i, row} : Square{row, i});
+  for (int i = 1; i < kBlockWidth - wall; ++i) result.insert(axis == 0 ? Square{i, row} : Square{row, i});
   return result;
 }
 
@@ -270,14 +270,14 @@ void fuzz_turning_assemblies(const Case& the_case) {
   Choices& choices = the_case.choices();
   std::set<Square> pocket = random_room(choices);
   std::vector<Bricks> parts(1);
-  for (int x = 0; x < kWidth; ++x) {
-    for (int y = 0; y < kWidth; ++y) {
+  for (int x = 0; x < kBlockWidth; ++x) {
+    for (int y = 0; y < kBlockWidth; ++y) {
       const double a = kSquare * x;
       const double b = kSquare * y;
       if (!pocket.contains({x, y})) parts[0].push_back({{a, b, 0}, {a + kSquare, b + kSquare, kSquare}});
     }
   }
-  const double size = kSquare * kWidth;
+  const double size = kSquare * kBlockWidth;
   parts[0].push_back({{0, 0, -kSquare}, {size, size, 0}});
   parts[0].push_back({{0, 0, kSquare}, {size, size, 2 * kSquare}});
   for (int count = choices.between(1, 2); count > 0; --count) {

@@ -54,7 +54,7 @@ TEST_CASE("a search for turns that is stopped is undecided") {
 TEST_CASE("an assembly is undecided as far as a monitor stops the search") {
   const Assembly assembly = read_assembly(source_folder() + "/data/planner/assembly/burr.json");
   const std::atomic<bool> stop{true};
-  const Disassembly answer = take_apart(assembly, std::nullopt, Monitor().stopped_by(&stop));
+  const Disassembly answer = take_apart(assembly, {}, Monitor().stopped_by(&stop));
   CHECK(answer.steps.empty());
   CHECK(answer.inseparable.empty());
   REQUIRE(answer.undecided.size() == 1);

@@ -15,16 +15,21 @@ namespace nef::minkowski {
 /// monitor is told of kSumPhase, in thousandths. In the report, equal choices of regions are one. Throw
 /// UnsupportedError for unbounded sets, but for those of one mark. Cost: that of the sums of the parts, which overlap
 /// as far as B reaches, O(n log n) beside them.
+/// @{
 TiledPolyhedron minkowski_sum(const TiledPolyhedron& a, const Polyhedron& b, const MinkowskiOptions& options = {},
                               MinkowskiReport* report = nullptr);
 TiledPolyhedron erode(const TiledPolyhedron& a, const Polyhedron& b, const MinkowskiOptions& options = {},
                       MinkowskiReport* report = nullptr);
 TiledPolyhedron offset(const TiledPolyhedron& a, const Rational& radius, int splits, Side side,
                        const MinkowskiOptions& options = {}, MinkowskiReport* report = nullptr);
+/// @}
+
 /// An erosion and a sum, or a sum and an erosion. B must not be empty (InputError).
+/// @{
 TiledPolyhedron opening(const TiledPolyhedron& a, const Polyhedron& b, const MinkowskiOptions& options = {},
                         MinkowskiReport* report = nullptr);
 TiledPolyhedron closing(const TiledPolyhedron& a, const Polyhedron& b, const MinkowskiOptions& options = {},
                         MinkowskiReport* report = nullptr);
+/// @}
 
 }  // namespace nef::minkowski

@@ -68,7 +68,7 @@ void append_length(std::string& bytes, std::size_t length) {
 
 }  // namespace
 
-Studio::Studio(StudioOptions options, std::function<void()> stop)
+Studio::Studio(const StudioOptions& options, std::function<void()> stop)
     : root_(options.root), stop_(std::move(stop)), pages_(options.threads, options.limits) {
   for (const std::string& file : options.files) {
     const std::string name = root_.file(file).lexically_relative(root_.path()).generic_string();

@@ -47,7 +47,7 @@ inline constexpr char kStateFile[] = "studio.nefstudio";
 class Studio {
  public:
   /// `stop` is called when a page asks the server to end. Throws InputError for a root or a file that is not there.
-  Studio(StudioOptions options, std::function<void()> stop);
+  Studio(const StudioOptions& options, std::function<void()> stop);
 
   /// The answer to a request. Any number of threads may ask.
   WebReply answer(const WebRequest& request);

@@ -274,13 +274,13 @@ def test_a_thousand_connections_are_served_or_refused():
 def test_computations_end_at_their_limits():
     with studio("--time", "2", "--memory", "4000") as server:
         begun = time.monotonic()
-        status, text = server.ask("compute", {"panel": "sets", "text": "minkowski(sphere(1, 100), sphere(1, 90))"})
+        status, text = server.ask("compute", {"panel": "sets", "text": "minkowski(sphere(1, 200) - box(0,0,0, 1,1,1), sphere(1, 90))"})
         assert status == 422 and b"--time" in text, (status, text[:200])
         one_line(text)
         assert time.monotonic() - begun < 20
         assert server.ask("compute", {"panel": "sets", "text": "box(0,0,0, 1,1,1)"})[0] == 200
     with studio("--memory", "64") as server:
-        status, text = server.ask("compute", {"panel": "sets", "text": "minkowski(sphere(1, 100), sphere(1, 90))"})
+        status, text = server.ask("compute", {"panel": "sets", "text": "minkowski(sphere(1, 200) - box(0,0,0, 1,1,1), sphere(1, 90))"})
         assert status == 422 and b"--memory" in text, (status, text[:200])
 
 
@@ -291,7 +291,7 @@ def test_it_ends_when_it_is_asked_to_also_in_the_middle_of_a_computation():
 
             def compute():
                 with contextlib.suppress(OSError, http.client.HTTPException):
-                    outcome.append(server.ask("compute", {"panel": "sets", "text": "minkowski(sphere(1, 100), sphere(1, 90))"})[0])
+                    outcome.append(server.ask("compute", {"panel": "sets", "text": "minkowski(sphere(1, 200) - box(0,0,0, 1,1,1), sphere(1, 90))"})[0])
 
             computing = threading.Thread(target=compute)
             computing.start()

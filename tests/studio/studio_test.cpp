@@ -293,10 +293,12 @@ TEST_CASE("A computation is cancelled while it runs") {
   Studio studio({.root = place.root}, [] {});
   int status = 0;
   std::thread computing([&] {
-    status = studio
-                 .answer({"POST", "/api/compute",
-                          R"~({"page": "a", "panel": "sets", "text": "minkowski(sphere(1, 60), sphere(1, 50))"})~"})
-                 .status;
+    status =
+        studio
+            .answer(
+                {"POST", "/api/compute",
+                 R"~({"page": "a", "panel": "sets", "text": "minkowski(sphere(1, 100) - box(0,0,0, 1,1,1), sphere(1, 90))"})~"})
+            .status;
   });
   while (!answer(studio, "progress", {})["running"].get<bool>()) std::this_thread::yield();
   answer(studio, "cancel", {});

@@ -290,7 +290,7 @@ const tests = {
 
   async "a computation is cancelled in the middle"(browser) {
     await click(browser, "#tabs [data-panel=sets]");
-    await type(browser, AREA, "minkowski(sphere(1, 90), sphere(1, 80))");
+    await type(browser, AREA, "minkowski(sphere(1, 100) - box(0,0,0, 1,1,1), sphere(1, 90))");
     await browser.until("!document.querySelector('#progress').hidden");
     await browser.until(`/^[a-z ]+, \\d+\\.\\d s$/i.test(${text("#progress-text")})`);
     await picture(browser, "progress");
@@ -305,7 +305,7 @@ const tests = {
     const first = browser.session;
     await openStudio(browser, server.address, 900, 700);
     const second = browser.session;
-    await type(browser, AREA, "minkowski(sphere(1, 90), sphere(1, 80))");
+    await type(browser, AREA, "minkowski(sphere(1, 100) - box(0,0,0, 1,1,1), sphere(1, 90))");
     await browser.until("!document.querySelector('#progress').hidden");
     await turnTo(browser, first);
     await type(browser, AREA, "box(0,0,0, 4,1,1)");

@@ -41,20 +41,20 @@ fs::path RootFolder::inside(const std::string& name, const std::string& folder) 
   if (fs::path(name).is_absolute() || fs::path(folder).is_absolute()) throw refuse();
   // ".." in the name is judged by where it leads, as links are.
   std::error_code error;
-  const fs::path found = fs::weakly_canonical(path_ / relative, error);
+  fs::path found = fs::weakly_canonical(path_ / relative, error);
   if (error || !is_below(found, path_)) throw refuse();
   return found;
 }
 
 fs::path RootFolder::file(const std::string& name, const std::string& folder) const {
-  const fs::path found = inside(name, folder);
+  fs::path found = inside(name, folder);
   std::error_code error;
   if (!fs::is_regular_file(found, error)) throw InputError(name + ": there is no such file below the studio's folder");
   return found;
 }
 
 fs::path RootFolder::target(const std::string& name) const {
-  const fs::path found = inside(name, {});
+  fs::path found = inside(name, {});
   std::error_code error;
   if (is_hidden(found.filename())) throw InputError(name + ": hidden files are not written");
   if (!fs::is_directory(found.parent_path(), error)) throw InputError(name + ": its folder is not there");

@@ -65,7 +65,7 @@ CASES = [
     ("wound", WOUND, None, "infeasible: "),
     ("tight", TIGHT, None, "tight: 6 passages"),
     ("boxed", BOXED, None, "inseparable: no set of 2 parts"),
-    ("wedged", WEDGED, None, "inseparable: no set of 3 parts"),
+    ("wedged", WEDGED, None, "inseparable: no set of 2 parts"),
     ("apart", dict(SHEET, contact="forbid"), "0 0 0 0 0 1 3\n2 1 1 1 2 -1 3\n", "path: all 1 motions are free"),
 ]
 # Proofs whose checks take a twentieth of a second and more.

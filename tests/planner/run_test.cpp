@@ -11,6 +11,7 @@
 #include "nef/polyhedron.h"
 #include "nef/tiles/storage/tile_folder.h"
 #include "nef/tiles/tiled_polyhedron.h"
+#include "nef/version.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
 #include "tests/support/paths.h"
@@ -243,7 +244,7 @@ TEST_CASE("The option --tight lists and exits with 0 whatever the answer, unless
 
 TEST_CASE("flags that all programs have") {
   const Folder folder;
-  CHECK_THAT(planner(folder, "--version").out, Catch::StartsWith("planner 0.") && Catch::Contains(", OMPL "));
+  CHECK_THAT(planner(folder, "--version").out, Catch::StartsWith("planner " NEF_VERSION) && Catch::Contains(", OMPL "));
   const std::string help = planner(folder, "--help").out;
   for (const char* word :
        {"--page", "--threads", "--quiet", "--json", "--tight", "--ompl", "--benchmark", "Exit codes"}) {

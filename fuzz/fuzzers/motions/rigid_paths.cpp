@@ -529,7 +529,8 @@ class RigidPathCase {
 
   using Cube = std::array<int, 3>;
   [[nodiscard]] static std::size_t index_of(const Cube& cube) {
-    return static_cast<std::size_t>((cube[2] * kCubes + cube[1]) * kCubes + cube[0]);
+    const auto at = [&cube](std::size_t axis) { return static_cast<std::size_t>(cube[axis]); };
+    return (at(2) * kCubes + at(1)) * kCubes + at(0);
   }
   [[nodiscard]] static bool is_inside(const Cube& cube) {
     return std::all_of(cube.begin(), cube.end(), [](int x) { return x >= 0 && x < kCubes; });

@@ -13,6 +13,7 @@
 #include "nef/io/polyhedron_file.h"
 #include "nef/polyhedron.h"
 #include "nef/query/measure.h"
+#include "nef/version.h"
 #include "tests/support/paths.h"
 #include "tests/support/report_shape.h"
 #include "tests/visual_hull/command/run_command.h"
@@ -256,7 +257,7 @@ TEST_CASE("The option --json prints the report and nothing else, --quiet nothing
   CHECK(run(data("letters/mpi.vsh") + " --verify --report -").output.find("\"views\"") != std::string::npos);
   const Outcome version = run("--version");
   CHECK(version.code == 0);
-  CHECK_THAT(version.output, Contains("visual_hull 0."));
+  CHECK_THAT(version.output, Contains("visual_hull " NEF_VERSION));
 }
 
 TEST_CASE("The volume is a double with a bound for its error, unless the exact one is asked for") {

@@ -18,10 +18,10 @@ cd "$(dirname "$0")/.."
 source scripts/setup.sh
 install_missing debootstrap
 bare=$(mktemp -d)
-trap 'umount "$bare/proc" "$bare/dev" 2>/dev/null || true; rm -rf "$bare"' EXIT
+# The devices in there are debootstrap's own, not those of this machine; --one-file-system spares what could not be unmounted.
+trap 'umount "$bare/proc" 2>/dev/null || true; rm -rf --one-file-system "$bare"' EXIT
 debootstrap --variant=minbase bookworm "$bare" >/dev/null
 mount -t proc proc "$bare/proc"
-mount --bind /dev "$bare/dev"
 cp /etc/resolv.conf "$bare/etc/resolv.conf"
 cp "$packages"/*.deb "$packages"/*.whl tests/docs/run_commands.py "$bare/tmp"
 

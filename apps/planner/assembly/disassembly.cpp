@@ -129,7 +129,8 @@ class TakingApart {
     std::vector<std::pair<Rational, std::size_t>> by_size;
     for (const std::size_t part : parts) by_size.emplace_back(size_of({part}).second, part);
     std::sort(by_size.begin(), by_size.end());
-    for (const auto& [size, part] : by_size) {
+    for (const auto& sized : by_size) {
+      const std::size_t part = sized.second;
       monitor_.check_interruption();
       const PartSet others = without(parts, {part});
       for (const Rational3& d : ways_of(part, others)) {

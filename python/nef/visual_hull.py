@@ -369,7 +369,10 @@ class CalibratedView(NamedTuple):
     photograph: str
     #: corners of the board that were found, without those that the camera does not follow, if it has one
     corners: int
-    #: pixels between corners as seen and as the camera sees them (root mean square); None if it was refused
+    #: places on borders between black and white that the camera follows; 0: it follows the corners, or was refused
+    borders: int
+    #: pixels that borders (corners, if there are none) are off by from where the camera sees them (root mean square);
+    #: None if it was refused
     error: Optional[float]
     #: the matrix of shape (3, 4), in millimetres from the middle of the board, z up, the lens undone; None if refused
     camera: Any
@@ -390,9 +393,9 @@ class Calibration(NamedTuple):
     principal_point_assumed: bool
     #: k1, k2, p1, p2, k3, as OpenCV has them
     distortion: List[float]
-    #: pixels between corners as seen and as the cameras see them (root mean square)
+    #: the same of all views
     error: float
-    #: pixels that the cameras are off by in their images of things on the board, as far as the noise of corners tells
+    #: pixels that the cameras are off by in their images of things on the board, as far as the noise of borders tells
     camera_error: Optional[float]
     #: a list of CalibratedView, in the order of the photographs
     views: List[CalibratedView]
@@ -418,7 +421,7 @@ def calibrate(photographs: Sequence[Any], board: str = USUAL_BOARD, *, lens: Seq
     for note in answer["notes"]:
         warnings.warn(note, InputWarning, stacklevel=2)
     for key in "views", "lens_views":
-        answer[key] = [CalibratedView(*view)._replace(camera=None if view[3] is None else numpy.array(view[3]))
+        answer[key] = [CalibratedView(*view)._replace(camera=None if view[4] is None else numpy.array(view[4]))
                        for view in answer[key]]
     return Calibration(**answer)
 

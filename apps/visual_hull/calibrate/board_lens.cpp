@@ -10,6 +10,7 @@
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
+#include "apps/visual_hull/calibrate/opencv_camera.h"
 #include "apps/visual_hull/masks/separation.h"
 
 namespace nef::visual_hull {
@@ -29,16 +30,18 @@ constexpr std::size_t kFewestKept = 8;  // corners
 struct LensChoice {
   int flags;
   int free;
+  bool square_pixels;
   bool centred;
+  int coefficients;
 };
 
 constexpr int kNoTangent = cv::CALIB_ZERO_TANGENT_DIST;
 constexpr std::array<LensChoice, 4> kLensChoices{{
     {cv::CALIB_FIX_PRINCIPAL_POINT | cv::CALIB_FIX_ASPECT_RATIO | kNoTangent | cv::CALIB_FIX_K2 | cv::CALIB_FIX_K3, 2,
-     true},
-    {cv::CALIB_FIX_PRINCIPAL_POINT | cv::CALIB_FIX_ASPECT_RATIO | kNoTangent | cv::CALIB_FIX_K3, 3, true},
-    {cv::CALIB_FIX_ASPECT_RATIO | kNoTangent | cv::CALIB_FIX_K3, 5, false},
-    {0, 9, false},
+     true, true, 1},
+    {cv::CALIB_FIX_PRINCIPAL_POINT | cv::CALIB_FIX_ASPECT_RATIO | kNoTangent | cv::CALIB_FIX_K3, 3, true, true, 2},
+    {cv::CALIB_FIX_ASPECT_RATIO | kNoTangent | cv::CALIB_FIX_K3, 5, true, false, 2},
+    {0, 9, false, false, 5},
 }};
 
 /// A fit of one model.
@@ -112,51 +115,32 @@ class LensFitting {
   std::vector<std::vector<cv::Point2f>> points_;
 };
 
-Eigen::Matrix3d rotation_of_vector(const cv::Mat& rotation_vector) {
-  cv::Mat r;
-  cv::Rodrigues(rotation_vector, r);
-  Eigen::Matrix3d result;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) result(i, j) = r.at<double>(i, j);
-  }
-  return result;
-}
-
-/// A pose as OpenCV has it.
-struct RawPose {
-  cv::Mat rotation;
-  cv::Mat shift;
-};
-
 // The camera of one view: poses and how well they explain a board.
 class BoardCamera {
  public:
-  explicit BoardCamera(const Lens& lens)
-      : k_((cv::Mat_<double>(3, 3) << lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1)),
-        distortion_(lens.distortion) {}
+  explicit BoardCamera(const Lens& lens) : lens_(lens), k_(opencv_matrix(lens)) {}
 
-  [[nodiscard]] std::vector<RawPose> poses(const SeenBoard& view) const {
+  [[nodiscard]] std::vector<OpenCvPose> poses(const SeenBoard& view) const {
     std::vector<cv::Mat> rotations;
     std::vector<cv::Mat> shifts;
     try {
-      cv::solvePnPGeneric(view.corners, view.points, k_, distortion_, rotations, shifts, false, cv::SOLVEPNP_IPPE);
+      cv::solvePnPGeneric(view.corners, view.points, k_, lens_.distortion, rotations, shifts, false, cv::SOLVEPNP_IPPE);
     } catch (const cv::Exception&) {  // the corners lie such that there is none
       return {};
     }
-    std::vector<RawPose> result;
+    std::vector<OpenCvPose> result;
     for (std::size_t i = 0; i < rotations.size(); ++i) result.push_back({rotations[i], shifts[i]});
     return result;
   }
 
   // By least squares.
-  void fit(const SeenBoard& view, RawPose& pose) const {
-    cv::solvePnPRefineLM(view.corners, view.points, k_, distortion_, pose.rotation, pose.shift);
+  void fit(const SeenBoard& view, OpenCvPose& pose) const {
+    cv::solvePnPRefineLM(view.corners, view.points, k_, lens_.distortion, pose.rotation, pose.shift);
   }
 
   // Of each corner, from where the pose has it, in pixels.
-  [[nodiscard]] std::vector<double> distances(const SeenBoard& view, const RawPose& pose) const {
-    std::vector<cv::Point2d> seen;
-    cv::projectPoints(view.corners, pose.rotation, pose.shift, k_, distortion_, seen);
+  [[nodiscard]] std::vector<double> distances(const SeenBoard& view, const OpenCvPose& pose) const {
+    const std::vector<cv::Point2d> seen = seen_points(view.corners, lens_, pose);
     std::vector<double> result;
     for (std::size_t i = 0; i < seen.size(); ++i) result.push_back(cv::norm(seen[i] - view.points[i]));
     return result;
@@ -164,61 +148,35 @@ class BoardCamera {
 
   // What a pose that was fitted to a board makes the image of things on it be off by: its covariance is s^2 (J^T J)^-1,
   // with s of the corners' distances and J how their images move with the pose.
-  [[nodiscard]] double off_px(const SeenBoard& view, const RawPose& pose) const {
+  [[nodiscard]] double off_px(const SeenBoard& view, const OpenCvPose& pose) const {
     const double spare = 2 * static_cast<double>(view.points.size()) - 6;
     if (!(spare > 0)) return HUGE_VAL;
     double squares = 0;
     for (const double d : distances(view, pose)) squares += d * d;
-    const cv::Mat j = by_pose(view.corners, pose);
-    const cv::Mat off = by_pose(things_on(view.corners), pose);
+    const cv::Mat j = derivatives_of_seen(view.corners, lens_, pose).colRange(0, 6);
+    const cv::Mat off = derivatives_of_seen(things_on_board(view.corners), lens_, pose).colRange(0, 6);
     const cv::Mat covariance = (squares / spare) * cv::Mat(j.t() * j).inv(cv::DECOMP_SVD);
     return std::sqrt(cv::trace(off * covariance * off.t())[0] / (off.rows / 2.0));
   }
 
-  [[nodiscard]] double error(const SeenBoard& view, const RawPose& pose) const {
+  [[nodiscard]] double error(const SeenBoard& view, const OpenCvPose& pose) const {
     double sum = 0;
     for (const double d : distances(view, pose)) sum += d * d;
     return std::sqrt(sum / static_cast<double>(view.points.size()));
   }
 
  private:
-  // How images of points move with the three numbers of the rotation and the three of the shift: two rows a point.
-  [[nodiscard]] cv::Mat by_pose(const std::vector<cv::Point3d>& points, const RawPose& pose) const {
-    std::vector<cv::Point2d> seen;
-    cv::Mat j;
-    cv::projectPoints(points, pose.rotation, pose.shift, k_, distortion_, seen, j);
-    return j.colRange(0, 6);
-  }
-
-  // Points of a block on the seen part of a board, as high as that is long.
-  static std::vector<cv::Point3d> things_on(const std::vector<cv::Point3d>& corners) {
-    cv::Point3d low = corners.front();
-    cv::Point3d high = low;
-    for (const cv::Point3d& p : corners) {
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), 0};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), 0};
-    }
-    const double height = std::max(high.x - low.x, high.y - low.y);
-    std::vector<cv::Point3d> result;
-    for (const double z : {0.0, height / 2, height}) {
-      for (const double x : {low.x, high.x}) {
-        for (const double y : {low.y, high.y}) result.emplace_back(x, y, z);
-      }
-    }
-    return result;
-  }
-
+  Lens lens_;
   cv::Mat k_;
-  std::vector<double> distortion_;
 };
 
 // Without the corners that are off by far more than the others: the object, its outline or the border of a shadow lies
 // beside them. They go one by one, since each draws the pose to itself. If many do, something else is wrong, and all
 // stay.
-SeenBoard trusted_corners(const SeenBoard& view, const BoardCamera& camera, RawPose& pose) {
+SeenBoard trusted_corners(const SeenBoard& view, const BoardCamera& camera, OpenCvPose& pose) {
   const std::size_t fewest = std::max(kFewestKept, view.points.size() - view.points.size() / 4);
   SeenBoard kept = view;
-  RawPose fitted{pose.rotation.clone(), pose.shift.clone()};
+  OpenCvPose fitted{pose.rotation.clone(), pose.shift.clone()};
   while (true) {
     const std::vector<double> off = camera.distances(kept, fitted);
     const auto worst = std::max_element(off.begin(), off.end()) - off.begin();
@@ -254,7 +212,9 @@ BoardLens fit_lens(std::span<const SeenBoard* const> views, const ImageSize& siz
     taken = &model;
   }
   result.error_px = best.error;
+  result.square_pixels = taken->square_pixels;
   result.centred = taken->centred;
+  result.coefficients = taken->coefficients;
   Lens& lens = result.lens;
   lens.fx = best.k.at<double>(0, 0);
   lens.fy = best.k.at<double>(1, 1);
@@ -266,19 +226,32 @@ BoardLens fit_lens(std::span<const SeenBoard* const> views, const ImageSize& siz
   return result;
 }
 
+std::vector<cv::Point3d> things_on_board(const std::vector<cv::Point3d>& seen) {
+  cv::Point3d low = seen.front();
+  cv::Point3d high = low;
+  for (const cv::Point3d& p : seen) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), 0};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), 0};
+  }
+  const double height = std::max(high.x - low.x, high.y - low.y);
+  std::vector<cv::Point3d> result;
+  for (const double z : {0.0, height / 2, height}) {
+    for (const double x : {low.x, high.x}) {
+      for (const double y : {low.y, high.y}) result.emplace_back(x, y, z);
+    }
+  }
+  return result;
+}
+
 std::optional<BoardPose> pose_by_board(const SeenBoard& view, const Lens& lens) {
   const BoardCamera camera(lens);
   std::vector<BoardPose> poses;
-  for (RawPose& pose : camera.poses(view)) {
+  for (OpenCvPose& pose : camera.poses(view)) {
     camera.fit(view, pose);
     const SeenBoard trusted = trusted_corners(view, camera, pose);
-    const double* const t = pose.shift.ptr<double>();
-    BoardPose found{{rotation_of_vector(pose.rotation), {t[0], t[1], t[2]}},
-                    camera.error(trusted, pose),
-                    trusted.points.size(),
-                    camera.off_px(trusted, pose),
+    BoardPose found{pose.pose(), camera.error(trusted, pose), trusted.points.size(), camera.off_px(trusted, pose),
                     false};
-    if (std::isfinite(found.error_px) && t[2] > 0) poses.push_back(found);
+    if (std::isfinite(found.error_px) && found.pose.translation.z() > 0) poses.push_back(found);
   }
   if (poses.empty()) return std::nullopt;
   std::sort(poses.begin(), poses.end(), [](const auto& a, const auto& b) { return a.error_px < b.error_px; });

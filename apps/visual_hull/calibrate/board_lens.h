@@ -16,7 +16,10 @@ struct BoardLens {
   Lens lens;
   double error_px = 0;     ///< root mean square distance between corners as seen and as this lens sees them
   double focal_share = 0;  ///< standard deviation of the focal length, as a share of it
-  bool centred = true;     ///< the principal point is the middle of the image, because the boards do not determine it
+  // Its model.
+  bool square_pixels = true;  ///< there is one focal length
+  bool centred = true;   ///< the principal point is the middle of the image, because the boards do not determine it
+  int coefficients = 0;  ///< of its distortion that are not zero, the first ones of k1, k2, p1, p2, k3
 };
 
 /// The lens that explains boards best [Zhang 2000]. From few parameters to many (focal length and k1; k2; principal
@@ -41,5 +44,8 @@ struct BoardPose {
 /// are left: the object, its outline or the border of a shadow lies beside them. `off_px` is for points up to the
 /// longer side of the seen part of the board above it. Nothing if there is none.
 std::optional<BoardPose> pose_by_board(const SeenBoard& view, const Lens& lens);
+
+/// Points of a block on the seen part of a board, as high as that is long. `seen`: of the board, at least one.
+std::vector<cv::Point3d> things_on_board(const std::vector<cv::Point3d>& seen);
 
 }  // namespace nef::visual_hull

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Photographs -> corners of the board in each -> one lens -> a pose each -> without those that do not fit, lens and
-// poses again.
+// poses again -> the same by all borders between black and white, which need a camera to be found.
 #include "apps/visual_hull/calibrate/calibrate.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <span>
 
+#include "apps/visual_hull/calibrate/border_fit.h"
 #include "apps/visual_hull/calibrate/find_board.h"
 #include "apps/visual_hull/masks/measures.h"
 #include "apps/visual_hull/masks/separation.h"
@@ -28,6 +31,7 @@ constexpr int kCalibrationRounds = 3;
 constexpr double kOnALine = 0.05;    // extent across over extent along
 constexpr double kSureFocal = 0.01;  // standard deviation, as a share
 constexpr double kOtherLens = 2;     // times the error of the series that the lens comes from
+constexpr std::size_t kFewestBorders = 100;
 
 /// Photographs with the corners that they show.
 struct BoardSeries {
@@ -165,11 +169,53 @@ double series_error(const BoardSeries& series) {
   double count = 0;
   for (std::size_t i = 0; i < series.views.size(); ++i) {
     if (!series.good(i)) continue;
-    const auto n = static_cast<double>(series.views[i].corners);
+    const auto n = static_cast<double>(std::max(series.views[i].corners, series.views[i].borders));
     sum += n * series.views[i].error_px * series.views[i].error_px;
     count += n;
   }
   return count == 0 ? 0 : std::sqrt(sum / count);
+}
+
+/// What the lens and poses of some series are fitted to.
+struct BorderSeries {
+  std::vector<CalibratedView*> owners;
+  std::vector<BorderView> views;
+};
+
+// The borders that the good photographs of a series show.
+void find_series_borders(BoardSeries& series, const Board& board, const Lens& lens, const nef::Monitor& monitor,
+                         BorderSeries& found) {
+  const std::vector<BoardBorder> borders = board_borders(board);
+  std::vector<BorderView> views(series.views.size());
+  nef::parallel_for(series.views.size(), monitor, [&](std::size_t i, const nef::Monitor&) {
+    if (!series.good(i)) return;
+    cv::Mat gray;
+    cv::cvtColor(read_picture(series.views[i].photograph), gray, cv::COLOR_BGR2GRAY);
+    views[i].pose = series.views[i].pose;
+    views[i].borders = find_borders(gray, borders, lens, views[i].pose);
+  });
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (views[i].borders.size() < kFewestBorders) continue;
+    found.owners.push_back(&series.views[i]);
+    found.views.push_back(std::move(views[i]));
+  }
+}
+
+// Poses, and the lens if it is the same for all, by borders.
+void fit_series_borders(std::span<BoardSeries* const> together, const Board& board, BoardLens& lens, bool fit_the_lens,
+                        const nef::Monitor& monitor) {
+  BorderSeries found;
+  for (BoardSeries* series : together) find_series_borders(*series, board, lens.lens, monitor, found);
+  if (found.views.empty()) return;
+  fit_borders(lens, found.views, fit_the_lens);
+  for (std::size_t i = 0; i < found.views.size(); ++i) {
+    CalibratedView& view = *found.owners[i];
+    const BorderView& fitted = found.views[i];
+    view.pose = fitted.pose;
+    view.borders = fitted.kept;
+    view.error_px = fitted.error_px;
+    view.off_px = fitted.off_px;
+  }
 }
 
 void note_refused(const std::vector<CalibratedView>& views, nef::Messages& notes) {
@@ -178,7 +224,17 @@ void note_refused(const std::vector<CalibratedView>& views, nef::Messages& notes
   }
 }
 
-nef::Messages calibration_notes(const Calibration& calibration, bool own_lens) {
+// Whether a lens explains photographs far worse than those of the series that it comes from.
+nef::Messages note_of_other_lens(const BoardSeries& series, const BoardLens& lens) {
+  const double error = series_error(series);
+  if (error <= kOtherLens * lens.error_px) return {};
+  return {
+      fmt::format("the lens of the other series explains the photographs to {:.2f} pixels, its own ones to "
+                  "{:.2f}: were zoom and focus the same?",
+                  error, lens.error_px)};
+}
+
+nef::Messages calibration_notes(const Calibration& calibration) {
   nef::Messages notes;
   note_refused(calibration.views, notes);
   note_refused(calibration.lens_views, notes);
@@ -192,12 +248,6 @@ nef::Messages calibration_notes(const Calibration& calibration, bool own_lens) {
         fmt::format("the focal length is known only to {:.1f} %; add photographs of the board at several tilts "
                     "(--lens)",
                     100 * calibration.lens.focal_share));
-  }
-  if (!own_lens && calibration.error_px > kOtherLens * calibration.lens.error_px) {
-    notes.push_back(
-        fmt::format("the lens of the other series explains the photographs to {:.2f} pixels, its own ones to "
-                    "{:.2f}: were zoom and focus the same?",
-                    calibration.error_px, calibration.lens.error_px));
   }
   return notes;
 }
@@ -223,25 +273,35 @@ Calibration calibrate(const std::vector<fs::path>& photographs, const Board& boa
                       const nef::Monitor& monitor) {
   Calibration calibration;
   BoardSeries series = look_for_boards(photographs, board, monitor);
+  nef::Messages other_lens;
   if (lens.empty()) {
     calibration.lens = lens_of_series(series);
+    fit_series_borders(std::vector{&series}, board, calibration.lens, true, monitor);
   } else {
-    BoardSeries other = look_for_boards(lens, board, monitor);
-    calibration.lens = lens_of_series(other);
-    if (other.size.width != series.size.width || other.size.height != series.size.height) {
+    BoardSeries own = look_for_boards(lens, board, monitor);
+    calibration.lens = lens_of_series(own);
+    if (own.size.width != series.size.width || own.size.height != series.size.height) {
       throw nef::InputError(
           fmt::format("--lens: its photographs have {} x {} pixels, the others {} x {}: the same camera "
                       "is needed, at the same settings",
-                      other.size.width, other.size.height, series.size.width, series.size.height));
+                      own.size.width, own.size.height, series.size.width, series.size.height));
     }
     place_views(series, calibration.lens.lens);
     refuse_outliers(series);
-    calibration.lens_views = std::move(other.views);
+    other_lens = note_of_other_lens(series, calibration.lens);
+    if (other_lens.empty()) {
+      fit_series_borders(std::vector{&own, &series}, board, calibration.lens, true, monitor);
+    } else {
+      fit_series_borders(std::vector{&own}, board, calibration.lens, true, monitor);
+      fit_series_borders(std::vector{&series}, board, calibration.lens, false, monitor);
+    }
+    calibration.lens_views = std::move(own.views);
   }
   enough_boards(series);
   calibration.error_px = series_error(series);
   calibration.views = std::move(series.views);
-  calibration.notes = calibration_notes(calibration, lens.empty());
+  calibration.notes = calibration_notes(calibration);
+  calibration.notes.insert(calibration.notes.end(), other_lens.begin(), other_lens.end());
   return calibration;
 }
 

@@ -46,6 +46,7 @@ int run_board(BoardArguments& a) {
 nef::Json calibrated_json(const CalibratedView& view) {
   nef::Json entry{{"photograph", view.photograph.string()}, {"corners", view.corners}};
   if (view.refused.empty()) {
+    entry["borders"] = view.borders;
     entry["error_px"] = view.error_px;
   } else {
     entry["refused"] = view.refused;
@@ -75,8 +76,8 @@ nef::Json calibration_report(const Calibration& calibration, const Board& board)
 void say_views(nef::Session& session, const Calibration& calibration) {
   for (const CalibratedView& view : calibration.views) {
     if (!view.refused.empty()) continue;
-    session.say(fmt::format("{}: {} corners, off by {:.3f} pixels", view.photograph.filename().string(), view.corners,
-                            view.error_px));
+    session.say(fmt::format("{}: {} corners, {} places on borders, off by {:.3f} pixels",
+                            view.photograph.filename().string(), view.corners, view.borders, view.error_px));
   }
   const Lens& lens = calibration.lens.lens;
   session.say(fmt::format("focal length {:.1f} pixels (standard deviation {:.2g} %), principal point {:.1f}, {:.1f}",

@@ -417,7 +417,8 @@ py::list calibrated_views(const nef::visual_hull::Calibration& made,
     const py::object camera =
         good ? py::object(doubles_of(nef::visual_hull::make_view(name, made.lens.lens, view.pose).camera))
              : py::object(py::none());
-    result.append(py::make_tuple(name, view.corners, good ? py::object(py::float_(view.error_px)) : py::none(), camera,
+    result.append(py::make_tuple(name, view.corners, view.borders,
+                                 good ? py::object(py::float_(view.error_px)) : py::none(), camera,
                                  good ? py::object(py::none()) : py::object(py::str(view.refused))));
   }
   return result;

@@ -70,6 +70,7 @@ void check_cameras(const Calibration& found, const std::vector<BoardCamera>& tru
     const CalibratedView& view = found.views[i];
     CHECK(view.refused.empty());
     CHECK(view.error_px < 0.3);
+    CHECK(view.borders > 500);
     CHECK(degrees_between(view.pose.rotation, truth[i].pose.rotation) < 0.1);
     const Eigen::Vector3d centre = -view.pose.rotation.transpose() * view.pose.translation;
     CHECK((centre - truth[i].centre()).norm() < share * truth[i].centre().norm());

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Borders of a board: points of the sides of its tiles. How far it is black and white around them is read from a
+// picture of the board. In a photograph: a profile of brightness across each border that is wide enough there.
 #include "apps/visual_hull/calibrate/board_borders.h"
 
 #include <algorithm>

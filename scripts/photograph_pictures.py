@@ -74,9 +74,9 @@ def first_hit(eye, rays):
     return best, which
 
 
-def lamp_of(rotation, eye):
-    """It stands to the left of the camera and above it."""
-    return eye + rotation.T @ numpy.array([-250, -260, -20])
+def lamp_of(rotation, eye, turns=False):
+    """It stands to the left of the camera and above it, or turns with the board."""
+    return numpy.array([250., -150, 500]) if turns else eye + rotation.T @ numpy.array([-250, -260, -20])
 
 
 def paint_at(points, which, eye, lamp):
@@ -93,11 +93,10 @@ def paint_at(points, which, eye, lamp):
     return paint / 255 * shade[:, None] + shine[:, None], normal
 
 
-def render(rotation, eye, board, rays_in_camera, random):
+def render(rotation, eye, lamp, board, rays_in_camera, random):
     """A photograph, bytes of red, green and blue."""
     sheet, page, pixels = board
     rays = rays_in_camera @ rotation
-    lamp = lamp_of(rotation, eye)
     colour = numpy.full(rays.shape, .33)
     best, which = first_hit(eye, rays)
     table = numpy.where(rays[..., 2] < 0, -eye[2] / rays[..., 2], numpy.inf)
@@ -143,16 +142,18 @@ def cameras(count):
     return [(looking(eye, (4, 2, 28)), eye) for eye in eyes]
 
 
-def take_photographs(folder, board, count):
+def take_photographs(folder, board, count, lamp_turns):
     rays, random = rays_of_lens(), numpy.random.default_rng(1)
     for name in "photographs", "lens":
         (folder / name).mkdir(exist_ok=True)
     for i, (rotation, eye) in enumerate(cameras(count)):
-        write_png(folder / "photographs" / f"duck_{i:02}.png", render(rotation, eye, board, rays, random))
+        write_png(folder / "photographs" / f"duck_{i:02}.png",
+                  render(rotation, eye, lamp_of(rotation, eye, lamp_turns), board, rays, random))
     duck, DUCK[:] = DUCK[:], []  # the board alone, held at several tilts
     for i in range(8):
         eye = place(330, .9 * i, numpy.radians((40, 65)[i % 2]))
-        picture = render(looking(eye, (25 * numpy.cos(2 * i), 20 * numpy.sin(3 * i), 0), .7 * i), eye, board, rays, random)
+        rotation = looking(eye, (25 * numpy.cos(2 * i), 20 * numpy.sin(3 * i), 0), .7 * i)
+        picture = render(rotation, eye, lamp_of(rotation, eye), board, rays, random)
         write_png(folder / "lens" / f"board_{i}.png", picture)
     DUCK[:] = duck
 
@@ -184,7 +185,9 @@ def write_perfect_scene(folder, count):
 def errors_of_cameras(scene, count):
     """Degrees between the axes of found and true cameras, and millimetres between their centres."""
     angles, shifts = [], []
-    for view, (rotation, eye) in zip(json.loads(scene.read_text())["cameras"], cameras(count)):
+    truth = cameras(count)
+    for view in json.loads(scene.read_text())["cameras"]:
+        rotation, eye = truth[int(re.search(r"\d+", view["name"])[0])]
         pose = numpy.linalg.inv(numpy.array(view["K"])) @ numpy.array(view["P"])
         pose /= numpy.cbrt(numpy.linalg.det(pose[:, :3]))
         turn = pose[:, :3] @ rotation.T
@@ -218,10 +221,10 @@ def textured_points(glb):
     return places.mean(1), pixels[row, column].astype(float), area
 
 
-def error_of_texture(glb, count):
+def error_of_texture(glb, count, lamp_turns):
     """Mean difference, up to 255 and weighted by area, between the texture and what the cameras see there, without noise:
     their mean, weighted by how squarely they look at the point, and the nearest of them; and the share of the hull's area
-    that some camera sees and the duck has there. The lamp stands still, so each camera sees another shade."""
+    that some camera sees and the duck has there. Where the lamp stands still each camera sees another shade."""
     position, colour, area = textured_points(glb)
     total, weight = numpy.zeros(position.shape), numpy.zeros(len(position))
     nearest = numpy.full(len(position), numpy.inf)
@@ -230,7 +233,7 @@ def error_of_texture(glb, count):
         t, which = first_hit(eye, rays)
         seen = numpy.flatnonzero((which >= 0) & (numpy.abs(t - 1) * numpy.linalg.norm(rays, axis=-1) < 1.5))
         there = eye + t[seen, None] * rays[seen]
-        shown, normal = paint_at(there, which[seen], eye, lamp_of(rotation, eye))
+        shown, normal = paint_at(there, which[seen], eye, lamp_of(rotation, eye, lamp_turns))
         square = -(normal * rays[seen]).sum(-1) / numpy.linalg.norm(rays[seen], axis=-1)
         seen, shown, square = seen[square > .1], 255 * numpy.clip(shown[square > .1], 0, 1), square[square > .1]
         total[seen] += shown * square[:, None]
@@ -300,13 +303,14 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, default="docs/pictures")
     parser.add_argument("--keep", type=pathlib.Path, help="folder for all files, which stays")
     parser.add_argument("--views", type=int, default=24)
+    parser.add_argument("--lamp-turns", action="store_true", help="the lamp turns with the board")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
         folder = arguments.keep or pathlib.Path(scratch)
         folder.mkdir(parents=True, exist_ok=True)
         hulls = arguments.bin / "visual_hull"
         run(hulls, "board", "-o", folder / "board.svg")
-        take_photographs(folder, sheet_of((folder / "board.svg").read_text()), arguments.views)
+        take_photographs(folder, sheet_of((folder / "board.svg").read_text()), arguments.views, arguments.lamp_turns)
         run(hulls, "calibrate", folder / "photographs", "--lens", folder / "lens", "-o", folder / "scene.json")
         method = "--mask", "threshold:red-blue"
         run(hulls, "masks", folder / "photographs", *method, "-o", folder / "masks")
@@ -320,7 +324,7 @@ def main():
         angles, shifts = errors_of_cameras(folder / "scene.json", arguments.views)
         print(f"cameras are off by {angles.mean():.3f} degrees, at most {angles.max():.3f}, and by {shifts.mean():.2f} mm, at "
               f"most {shifts.max():.2f}")
-        off, nearest, share = error_of_texture(folder / "duck.glb", arguments.views)
+        off, nearest, share = error_of_texture(folder / "duck.glb", arguments.views, arguments.lamp_turns)
         print(f"the texture is off by {off:.1f} of 255 from the mean of what cameras see, by {nearest:.1f} from the nearest of "
               f"them, over the {100 * share:.0f} % of the hull where the duck is seen")
         pictures = folder / "photographs"

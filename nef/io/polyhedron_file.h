@@ -40,9 +40,9 @@ struct PolyhedronWriteOptions {
                           ///< not together with groups)
   bool lenient = false;   ///< write a mesh even if it is known not to be strictly legal
   bool recenter = false;  ///< subtract middle_of_few_digits from the coordinates, so that few digits are lost
-  /// Red, green and blue for the vertices of the mesh that goes to a file; PLY and GLB only.
+  /// Red, green and blue for the vertices of the mesh that goes to a file; PLY, GLB and 3MF only.
   std::function<std::vector<std::array<std::uint8_t, 3>>(const Mesh&)> vertex_colors = {};
-  /// The texture of the mesh that goes to a file, which then has triangles only; OBJ, PLY and GLB only.
+  /// The texture of the mesh that goes to a file, which then has triangles only; not in OFF and STL.
   std::function<MeshTexture(const Mesh&)> texture = {};
   std::string format = {};  ///< instead of the extension of the path, which may be none
   Monitor monitor = {};     ///< cancellation, progress, counters; its referents must outlive the call

@@ -64,7 +64,7 @@ class Texture(NamedTuple):
     unseen: float
 
     def write(self, path: Any) -> None:
-        """Writes mesh and texture: .glb, or .obj or .ply, whose image is a file beside them (NAME_texture.png)."""
+        """Writes mesh and texture: .glb, .3mf, or .obj or .ply, whose image is a file beside them (NAME_texture.png)."""
         _visual_hull.write_textured(os.fspath(path), self.vertices, self.triangles, self.places, self.image)
 
 

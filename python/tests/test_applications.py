@@ -329,11 +329,11 @@ def test_texture_of_photographs(needs, tmp_path):
     assert texture.triangles.shape[1:] == (3,) and texture.places.shape == (*texture.triangles.shape, 2)
     assert texture.places.min() >= 0 and texture.places.max() <= 1 and 0 <= texture.unseen < 0.5
     assert abs(texture.image.astype(int) - (200, 100, 50)).max() <= 1
-    for name in ("hull.glb", "hull.obj", "hull.ply"):
+    for name in ("hull.glb", "hull.obj", "hull.ply", "hull.3mf"):
         texture.write(tmp_path / name)
         assert nef.read(tmp_path / name).bounding_box() is not None
     assert {"hull.mtl", "hull_texture.png"} <= {file.name for file in tmp_path.iterdir()}
-    with pytest.raises(nef.InputError, match="OBJ, PLY or GLB"):
+    with pytest.raises(nef.InputError, match="OBJ, PLY, GLB or 3MF"):
         texture.write(tmp_path / "hull.stl")
     with pytest.raises(nef.InputError, match="photograph of shape"):
         visual_hull.compute(masks, cameras, photographs=photographs[1:])

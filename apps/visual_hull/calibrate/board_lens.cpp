@@ -190,6 +190,27 @@ SeenBoard trusted_corners(const SeenBoard& view, const BoardCamera& camera, Open
   return kept;
 }
 
+// The pose that explains the corners best.
+std::optional<BoardPose> best_pose(const SeenBoard& view, const BoardCamera& camera) {
+  std::vector<BoardPose> poses;
+  for (OpenCvPose& pose : camera.poses(view)) {
+    camera.fit(view, pose);
+    const SeenBoard trusted = trusted_corners(view, camera, pose);
+    BoardPose found{pose.pose(), camera.error(trusted, pose), trusted.points.size(), camera.off_px(trusted, pose),
+                    false};
+    if (std::isfinite(found.error_px) && found.pose.translation.z() > 0) poses.push_back(found);
+  }
+  if (poses.empty()) return std::nullopt;
+  std::sort(poses.begin(), poses.end(), [](const auto& a, const auto& b) { return a.error_px < b.error_px; });
+  BoardPose& best = poses.front();
+  for (const BoardPose& other : poses) {
+    const double cosine = ((best.pose.rotation.transpose() * other.pose.rotation).trace() - 1) / 2;
+    const bool differs = cosine < std::cos(kOtherTilt);
+    if (differs && other.error_px < kAlike * best.error_px + kMostAlike) best.ambiguous = true;
+  }
+  return best;
+}
+
 }  // namespace
 
 BoardLens fit_lens(std::span<const SeenBoard* const> views, const ImageSize& size) {
@@ -245,23 +266,14 @@ std::vector<cv::Point3d> things_on_board(const std::vector<cv::Point3d>& seen) {
 
 std::optional<BoardPose> pose_by_board(const SeenBoard& view, const Lens& lens) {
   const BoardCamera camera(lens);
-  std::vector<BoardPose> poses;
-  for (OpenCvPose& pose : camera.poses(view)) {
-    camera.fit(view, pose);
-    const SeenBoard trusted = trusted_corners(view, camera, pose);
-    BoardPose found{pose.pose(), camera.error(trusted, pose), trusted.points.size(), camera.off_px(trusted, pose),
-                    false};
-    if (std::isfinite(found.error_px) && found.pose.translation.z() > 0) poses.push_back(found);
-  }
-  if (poses.empty()) return std::nullopt;
-  std::sort(poses.begin(), poses.end(), [](const auto& a, const auto& b) { return a.error_px < b.error_px; });
-  BoardPose& best = poses.front();
-  for (const BoardPose& other : poses) {
-    const double cosine = ((best.pose.rotation.transpose() * other.pose.rotation).trace() - 1) / 2;
-    const bool differs = cosine < std::cos(kOtherTilt);
-    if (differs && other.error_px < kAlike * best.error_px + kMostAlike) best.ambiguous = true;
-  }
-  return best;
+  std::optional<BoardPose> pose = best_pose(view, camera);
+  if (pose && !pose->ambiguous) return pose;
+  // Few corners, or nearly on a line; those of the markers are more, but not as good.
+  SeenBoard all = view;
+  all.corners.insert(all.corners.end(), view.marker_corners.begin(), view.marker_corners.end());
+  all.points.insert(all.points.end(), view.marker_points.begin(), view.marker_points.end());
+  if (std::optional<BoardPose> other = best_pose(all, camera)) return other;
+  return pose;
 }
 
 }  // namespace nef::visual_hull

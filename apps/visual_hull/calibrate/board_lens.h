@@ -41,8 +41,9 @@ struct BoardPose {
 
 /// The pose of a camera by the corners of a board [Collins, Bartoli 2014], then by least squares. Corners that are off
 /// by more than a fifth of a pixel and three times the median do not count, if a quarter of them at most are, and eight
-/// are left: the object, its outline or the border of a shadow lies beside them. `off_px` is for points up to the
-/// longer side of the seen part of the board above it. Nothing if there is none.
+/// are left: the object, its outline or the border of a shadow lies beside them. Where corners leave none, or two,
+/// those of markers count as well. `off_px` is for points up to the longer side of the seen part of the board above it.
+/// Nothing if there is none.
 std::optional<BoardPose> pose_by_board(const SeenBoard& view, const Lens& lens);
 
 /// Points of a block on the seen part of a board, as high as that is long. `seen`: of the board, at least one.

@@ -226,7 +226,11 @@ void note_refused(const std::vector<CalibratedView>& views, nef::Messages& notes
 
 // Whether a lens explains photographs far worse than those of the series that it comes from.
 nef::Messages note_of_other_lens(const BoardSeries& series, const BoardLens& lens) {
-  const double error = series_error(series);
+  std::vector<double> errors;  // their median: a view or two may be worse for reasons of their own
+  for (std::size_t i = 0; i < series.views.size(); ++i) {
+    if (series.good(i)) errors.push_back(series.views[i].error_px);
+  }
+  const double error = errors.empty() ? 0 : median_of(errors);
   if (error <= kOtherLens * lens.error_px) return {};
   return {
       fmt::format("the lens of the other series explains the photographs to {:.2f} pixels, its own ones to "

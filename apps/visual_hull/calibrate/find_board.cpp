@@ -2,6 +2,7 @@
 #include "apps/visual_hull/calibrate/find_board.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <opencv2/imgproc.hpp>
 
 #include "apps/visual_hull/calibrate/board_definition.h"
@@ -29,11 +30,23 @@ SeenBoard find_board(const cv::Mat& picture, const Board& board) {
   std::vector<int> numbers;
   cv::aruco::interpolateCornersCharuco(markers, ids, gray, definition, points, numbers);
   const std::vector<Eigen::Vector3d> corners = board_corners(board);
+  // Whole numbers are centres of pixels in both.
+  const auto in_picture = [scale](const cv::Point2f& p) {
+    return cv::Point2d((p.x + 0.5) / scale - 0.5, (p.y + 0.5) / scale - 0.5);
+  };
   for (std::size_t k = 0; k < points.size(); ++k) {
     const Eigen::Vector3d& corner = corners[static_cast<std::size_t>(numbers[k])];
     seen.corners.emplace_back(corner.x(), corner.y(), corner.z());
-    // Whole numbers are centres of pixels in both.
-    seen.points.emplace_back((points[k].x + 0.5) / scale - 0.5, (points[k].y + 0.5) / scale - 0.5);
+    seen.points.push_back(in_picture(points[k]));
+  }
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const auto number = std::find(definition->ids.begin(), definition->ids.end(), ids[k]) - definition->ids.begin();
+    if (number == static_cast<std::ptrdiff_t>(definition->ids.size())) continue;  // of another board
+    const std::vector<cv::Point3f>& marker = definition->objPoints[static_cast<std::size_t>(number)];
+    for (std::size_t i = 0; i < marker.size(); ++i) {
+      seen.marker_corners.emplace_back(marker[i].x - board.width() / 2, board.height() / 2 - marker[i].y, 0);
+      seen.marker_points.push_back(in_picture(markers[k][i]));
+    }
   }
   return seen;
 }

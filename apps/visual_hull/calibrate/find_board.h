@@ -15,6 +15,10 @@ namespace nef::visual_hull {
 struct SeenBoard {
   std::vector<cv::Point3d> corners;
   std::vector<cv::Point2d> points;
+
+  /// The same of the corners of markers, which are not found as well.
+  std::vector<cv::Point3d> marker_corners;
+  std::vector<cv::Point2d> marker_points;
 };
 
 /// Finds the corners of a board in a picture (three channels of 8 bits), by OpenCV's detector of markers and, between

@@ -38,8 +38,8 @@ constexpr std::array kFormats{
                read_whole<read_ply>, ply_bytes},
     MeshFormat{"glb", "GLB", FileNumbers::kNone, FileNumbers::kFloats,
                kNamedVertices | kFaceGroups | kVertexColors | kNamedParts | kTexture, is_glb, read_glb, glb_bytes},
-    MeshFormat{"3mf", "3MF", FileNumbers::kDecimals, FileNumbers::kNone, kNamedVertices | kNamedParts, is_3mf, read_3mf,
-               threemf_bytes},
+    MeshFormat{"3mf", "3MF", FileNumbers::kDecimals, FileNumbers::kNone,
+               kNamedVertices | kVertexColors | kNamedParts | kTexture, is_3mf, read_3mf, threemf_bytes},
 };
 
 }  // namespace

@@ -18,6 +18,8 @@ std::string beside(const std::string& path, const std::string& name) {
   return (fs::path(path).parent_path() / name).string();
 }
 
+bool has_image_inside(const std::string& extension) { return extension == "glb" || extension == "3mf"; }
+
 [[noreturn]] void refuse_texture(const std::string& path, const std::string& what) {
   throw FileError(FileProblem::kUnsupported, path + ": " + what);
 }
@@ -56,11 +58,11 @@ void require_texture(const std::string& path, const Mesh& mesh, const MeshTextur
   bool triangles = texture.corners.size() == mesh.corners.size();
   for (std::size_t f = 0; triangles && f < mesh.face_count(); ++f) triangles = mesh.face(f).size() == 3;
   if (!triangles) refuse_texture(path, "a texture needs triangles and a place in the image for each of their corners");
-  if (extension == "glb") return;
+  if (has_image_inside(extension)) return;
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   if (path == "-" || (fs::exists(status) && !fs::is_regular_file(status))) {
-    refuse_texture(path, "this format stores a texture in a file beside it: name a file, or write GLB");
+    refuse_texture(path, "this format stores a texture in a file beside it: name a file, or write GLB or 3MF");
   }
 }
 
@@ -78,7 +80,7 @@ std::string image_file_name(const std::string& stem) { return stem + "_texture.p
 std::string material_file_name(const std::string& stem) { return stem + ".mtl"; }
 
 void write_texture_files(const std::string& path, const MeshTexture& texture, const std::string& extension) {
-  if (extension == "glb") return;
+  if (has_image_inside(extension)) return;
   const std::string stem = texture_stem(path);
   const std::string image = image_file_name(stem);
   write_file(beside(path, image), texture.png);

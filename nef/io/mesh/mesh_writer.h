@@ -32,10 +32,10 @@ struct MeshWriteOptions {
   /// Groups of faces: `g name` in OBJ, colours in OFF, numbers and colours (names as comments) in PLY, named materials
   /// in GLB. Other formats have none.
   FaceGroups groups = {};
-  /// Red, green and blue (sRGB) of every vertex, or none; PLY and GLB only.
+  /// Red, green and blue (sRGB) of every vertex, or none; PLY, GLB and 3MF only.
   std::vector<std::array<std::uint8_t, 3>> vertex_colors = {};
-  /// An image on the faces, or none; OBJ, PLY and GLB only, and neither with groups nor with colours of vertices. GLB
-  /// contains the image; the others name a file beside them (NAME_texture.png, and NAME.mtl of an OBJ).
+  /// An image on the faces, or none; not in OFF and STL, and neither with groups nor with colours of vertices. GLB and
+  /// 3MF contain the image; the others name a file beside them (NAME_texture.png, and NAME.mtl of an OBJ).
   MeshTexture texture = {};
   /// What was subtracted from all coordinates of the mesh, which are written as they are: GLB and 3MF place the mesh
   /// there, so readers put it back; OFF, OBJ, PLY and STL note it in a comment or in the header. Dyadic.

@@ -169,7 +169,7 @@ TEST_CASE("Formats are found by extension, what is none is refused with all of t
   CHECK(find_mesh_format("") == nullptr);
   CHECK_THROWS_WITH(mesh_format_of("a.xyz"), Catch::Contains("use off, obj, stl, ply, glb"));
   CHECK(mesh_format_names(kWires) == "OBJ");
-  CHECK(mesh_format_names(kVertexColors, "and") == "PLY and GLB");
+  CHECK(mesh_format_names(kVertexColors, "and") == "PLY, GLB and 3MF");
 }
 
 TEST_CASE("The documentation has the table of formats") {

@@ -46,5 +46,33 @@ TEST_CASE("A pose does not follow corners beside which a shadow or the object li
   }
 }
 
+TEST_CASE("Where two poses explain the few corners that are seen, those of markers tell which") {
+  Lens lens = testing::usual_lens(3000);
+  lens.distortion = {0, 0, 0, 0, 0};
+  cv::RNG random(7);
+  const testing::BoardCamera camera = testing::turntable_before(lens, 5, 4000)[2];
+  SeenBoard seen = seen_by(camera, random);
+  SeenBoard few;
+  for (const std::size_t i : {0U, 1U, 2U, 6U, 7U, 8U}) {
+    few.corners.push_back(seen.corners[i]);
+    few.points.push_back(seen.points[i]);
+  }
+  const std::optional<BoardPose> by_corners = pose_by_board(few, lens);
+  REQUIRE(by_corners);
+  CHECK(by_corners->ambiguous);
+  // Markers all over the board.
+  for (const double x : {-105.0, -60.0, 0.0, 60.0, 105.0}) {
+    for (const double y : {-75.0, 0.0, 75.0}) {
+      const Eigen::Vector3d p = camera.pose.rotation * Eigen::Vector3d(x, y, 0) + camera.pose.translation;
+      few.marker_corners.emplace_back(x, y, 0);
+      few.marker_points.emplace_back(lens.fx * p.x() / p.z() + lens.cx, lens.fy * p.y() / p.z() + lens.cy);
+    }
+  }
+  const std::optional<BoardPose> by_all = pose_by_board(few, lens);
+  REQUIRE(by_all);
+  CHECK_FALSE(by_all->ambiguous);
+  CHECK(degrees_between(by_all->pose, camera.pose) < 0.5);
+}
+
 }  // namespace
 }  // namespace nef::visual_hull

@@ -127,6 +127,18 @@ TEST_CASE("A lens whose axis is not in the middle is determined by a series of i
   CHECK(found.notes.empty());
 }
 
+TEST_CASE("A lens of another zoom is noticed, and the photographs do not bend it") {
+  const Scratch s;
+  const Board board = parse_board(kUsualBoard);
+  const BoardStudio studio(board);
+  const std::vector<BoardCamera> zoomed = turntable_before(usual_lens(900), 3);
+  const Calibration found = calibrate(photographs(s, "view", studio, zoomed), board,
+                                      photographs(s, "lens", studio, held_at_tilts(usual_lens(760, 14, -9))));
+  CHECK(found.lens.lens.fx == Approx(760).epsilon(0.003));
+  REQUIRE(found.notes.size() == 1);
+  CHECK_THAT(found.notes[0], Contains("were zoom and focus the same?"));
+}
+
 TEST_CASE("Photographs that are of no use are left out with the reason, and the others stay right") {
   const Scratch s;
   const Board board = parse_board(kUsualBoard);

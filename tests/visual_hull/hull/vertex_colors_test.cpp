@@ -83,13 +83,14 @@ TEST_CASE("A box of six colours, and one that hides a part of another") {
   }
 }
 
-TEST_CASE("Colours are written to PLY and GLB, and nowhere else (--color)") {
+TEST_CASE("Colours are written to PLY, GLB and 3MF, and nowhere else (--color)") {
   const testing::Scratch scratch;
   const std::filesystem::path file =
       testing::render(testing::tracer_of({{{-1, -0.8, -0.9}, {1, 0.8, 0.9}, kSix}}), Rig(), scratch);
   const std::string ply = (scratch.folder() / "hull.ply").string();
   const std::string glb = (scratch.folder() / "hull.glb").string();
-  for (const std::string& name : {ply, glb}) {
+  const std::string threemf = (scratch.folder() / "hull.3mf").string();
+  for (const std::string& name : {ply, glb, threemf}) {
     const testing::Outcome outcome = testing::run(file.string() + " --simplify 2 --color -o " + name);
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
@@ -100,7 +101,7 @@ TEST_CASE("Colours are written to PLY and GLB, and nowhere else (--color)") {
   CHECK(nef::read_file(glb).find("\"COLOR_0\"") != std::string::npos);
   const testing::Outcome refused = testing::run(file.string() + " --color -o " + (scratch.folder() / "h.off").string());
   CHECK(refused.code == 2);
-  CHECK(refused.output.find("PLY and GLB") != std::string::npos);
+  CHECK(refused.output.find("PLY, GLB and 3MF") != std::string::npos);
 }
 
 TEST_CASE("The photograph of a mask lies in the folder images beside it") {

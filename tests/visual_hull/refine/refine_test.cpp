@@ -20,6 +20,7 @@ using refine::Fault;
 using refine::Model;
 using refine::Refinement;
 using testing::cameras_by;
+using testing::cut_lowest;
 using testing::Difference;
 using testing::difference;
 using testing::disturbed;
@@ -30,18 +31,7 @@ using testing::rendered_set;
 using testing::ring;
 using testing::Set;
 using testing::Shot;
-
-// Takes the lowest rows of a mask away, up to a share of its pixels.
-void cut_lowest(Set& set, std::size_t view, double share) {
-  cv::Mat& mask = set.masks[view];
-  double left = (1 - share) * cv::countNonZero(mask);
-  for (int y = 0; y < mask.rows; ++y) {
-    const int in_row = cv::countNonZero(mask.row(y));
-    if (left < 0) mask.row(y).setTo(0);
-    left -= in_row;
-  }
-  set.silhouettes[view] = testing::pixel_silhouette(mask);
-}
+using testing::standing_off;
 
 TEST_CASE("Cameras half a degree, 5 pixels and 1 % off come within .4 pixels of the truth") {
   for (std::uint64_t seed = 1; seed <= nef::test::fewer(2); ++seed) {
@@ -107,15 +97,7 @@ TEST_CASE("One camera that stands off among right ones is named and put back") {
     const Set set = rendered_set(generic_object(seed), ring(12, false));
     const std::size_t wrong = seed * 5 % 12;
     std::vector<Shot> given = set.truth;
-    Shot& shot = given[wrong];
-    if (turned) {
-      const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, static_cast<double>(seed)).normalized();
-      const Eigen::Matrix3d turn = Eigen::AngleAxisd(M_PI / 180, axis).toRotationMatrix();
-      shot.r = turn * shot.r;
-      shot.t = turn * shot.t;
-    } else {
-      shot.t.x() += 2 * shot.t.z() / shot.k(0, 0);
-    }
+    given[wrong] = standing_off(given[wrong], turned, seed);
     const Refinement result = refined_cameras(set, given);
     for (std::size_t i = 0; i < result.views.size(); ++i) {
       CHECK(result.views[i].fault == (i == wrong ? Fault::kCamera : Fault::kNone));

@@ -6,6 +6,7 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <random>
 #include <string>
@@ -127,6 +128,19 @@ inline std::vector<Shot> disturbed(std::vector<Shot> shots, double degrees, doub
   return shots;
 }
 
+/// A camera that stands off: turned by a degree about an axis that the seed says, or shifted by two pixels.
+inline Shot standing_off(Shot shot, bool turned, std::uint64_t seed) {
+  if (turned) {
+    const Eigen::Vector3d axis = Eigen::Vector3d(1, 2, static_cast<double>(seed)).normalized();
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(M_PI / 180, axis).toRotationMatrix();
+    shot.r = turn * shot.r;
+    shot.t = turn * shot.t;
+  } else {
+    shot.t.x() += 2 * shot.t.z() / shot.k(0, 0);
+  }
+  return shot;
+}
+
 /// Views of a set, with silhouettes along the sides of pixels.
 struct Set {
   std::vector<Shot> truth;
@@ -136,6 +150,18 @@ struct Set {
 
 inline Silhouette pixel_silhouette(const cv::Mat& mask) {
   return silhouette_of_mask(mask, {}, "test", SilhouetteOptions{}).region;
+}
+
+/// Takes the lowest rows of a mask away, up to a share of its pixels.
+inline void cut_lowest(Set& set, std::size_t view, double share) {
+  cv::Mat& mask = set.masks[view];
+  double left = (1 - share) * cv::countNonZero(mask);
+  for (int y = 0; y < mask.rows; ++y) {
+    const int in_row = cv::countNonZero(mask.row(y));
+    if (left < 0) mask.row(y).setTo(0);
+    left -= in_row;
+  }
+  set.silhouettes[view] = pixel_silhouette(mask);
 }
 
 inline Set rendered_set(const std::vector<Ellipsoid>& object, const std::vector<Shot>& shots) {

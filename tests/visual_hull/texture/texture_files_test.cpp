@@ -42,13 +42,13 @@ std::pair<nlohmann::json, std::size_t> json_of(const std::string& glb) {
   return {nlohmann::json::parse(glb.substr(20, length)), 20 + length + 8};
 }
 
-TEST_CASE("Textures are written with OBJ, PLY and GLB, whose meshes bound the same solid (--texture)") {
+TEST_CASE("Textures are written with OBJ, PLY, GLB and 3MF, whose meshes bound the same solid (--texture)") {
   const Scratch scratch;
   const std::string scene = scene_in(scratch).string() + " --simplify 1 ";
   const auto path = [&](const std::string& name) { return (scratch.folder() / name).string(); };
   REQUIRE(testing::run(scene + "-o " + path("plain.ply")).code == 0);
   const double volume = nef::nearest_double(*nef::volume(nef::read_polyhedron(path("plain.ply"))));
-  for (const char* name : {"a b.obj", "hull.ply", "hull.glb"}) {
+  for (const char* name : {"a b.obj", "hull.ply", "hull.glb", "hull.3mf"}) {
     const testing::Outcome outcome = testing::run(scene + "--texture -o '" + path(name) + "'");
     INFO(outcome.output);
     REQUIRE(outcome.code == 0);
@@ -99,8 +99,8 @@ TEST_CASE("Textures that cannot be are refused in one line") {
     return outcome.output;
   };
   const std::string folder = scratch.folder().string() + "/";
-  for (const char* name : {"h.stl", "h.off", "h.3mf", "h.nef"}) {
-    CHECK_THAT(refusal("--texture -o " + folder + name), Contains("OBJ, PLY and GLB can"));
+  for (const char* name : {"h.stl", "h.off", "h.nef"}) {
+    CHECK_THAT(refusal("--texture -o " + folder + name), Contains("OBJ, PLY, GLB and 3MF can"));
   }
   CHECK_THAT(refusal("--texture"), Contains("--texture writes a mesh: name its file with -o"));
   CHECK_THAT(refusal("--texture --color -o " + folder + "h.ply"), Contains("exclude each other"));

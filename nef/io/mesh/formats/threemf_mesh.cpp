@@ -17,20 +17,15 @@
 #include "nef/io/file_bytes.h"
 #include "nef/io/mesh/formats/xml_events.h"
 #include "nef/io/mesh/unfolding.h"
-#include "nef/io/number_text.h"
 #include "nef/io/text_cursor.h"
 #include "nef/io/zip_archive.h"
-#include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/vertex_merger.h"
 #include "nef/polyhedron.h"
 
 namespace nef {
 namespace {
 
-constexpr const char* kModelType = "http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
-constexpr const char* kCore = "http://schemas.microsoft.com/3dmanufacturing/core/2015/02";
 constexpr const char* kProduction = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
-constexpr const char* kMaterials = "http://schemas.microsoft.com/3dmanufacturing/material/2015/02";
 
 // An object that another one, or the build, places.
 struct Use {
@@ -120,7 +115,7 @@ class PartReader {
     std::istringstream words(*required);
     for (std::string prefix; words >> prefix;) {
       const std::string uri = events_.uri(prefix);
-      if (uri == kProduction || uri == kMaterials) continue;
+      if (uri == kProduction || uri == kThreemfMaterials) continue;
       fail(FileProblem::kUnsupported, "it needs the extension " + in_quotes(uri.empty() ? prefix : uri));
     }
   }
@@ -174,7 +169,7 @@ std::string model_part(ZipArchive& archive, const std::string& path) {
         [&target](const XmlElement& e) {
           const std::string* type = e.find("Type");
           const std::string* to = e.find("Target");
-          if (e.name == "Relationship" && type != nullptr && *type == kModelType && to != nullptr) target = *to;
+          if (e.name == "Relationship" && type != nullptr && *type == kThreemfModelType && to != nullptr) target = *to;
         },
         [](const std::string&) {});
     archive.read(relations, [&events](std::string_view piece) { events.parse(piece); });
@@ -253,61 +248,6 @@ class ModelReader {
 
 Mesh read_3mf(std::string_view bytes, const std::string& path, MeshParts* parts) {
   return ModelReader(bytes, path).read(parts);
-}
-
-std::string threemf_bytes(const Mesh& mesh, const MeshWriteOptions& options) {
-  const MeshSurface surface(mesh, options.monitor);
-  std::string model = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<model unit=\"millimeter\" xml:lang=\"en\" xmlns=\"";
-  model += kCore;
-  model += "\">\n <metadata name=\"Application\">nef</metadata>\n <resources>\n";
-  if (!surface.triangles.empty()) {
-    model += "  <object id=\"1\" type=\"model\"><mesh>\n   <vertices>\n";
-    for (const Rational3& point : mesh.vertices) {
-      model += "    <vertex";
-      for (std::size_t i = 0; i < 3; ++i) {
-        model += ' ';
-        model += "xyz"[i];
-        model += "=\"";
-        append_number(model, nearest_double(point[i]));
-        model += '"';
-      }
-      model += "/>\n";
-    }
-    model += "   </vertices>\n   <triangles>\n";
-    for (std::uint32_t k = 0; k < surface.triangles.size(); ++k) {
-      const std::array<std::uint32_t, 3> t = surface.corners_in_face(mesh, k);
-      model += "    <triangle v1=\"" + std::to_string(t[0]) + "\" v2=\"" + std::to_string(t[1]) + "\" v3=\"" +
-               std::to_string(t[2]) + "\"/>\n";
-    }
-    model += "   </triangles>\n  </mesh></object>\n";
-  }
-  model += " </resources>\n <build>";
-  if (!surface.triangles.empty()) {
-    model += "<item objectid=\"1\"";
-    if (!is_zero(options.offset)) {
-      model += " transform=\"1 0 0 0 1 0 0 0 1";
-      for (const Rational& x : options.offset) {
-        model += ' ';
-        append_number(model, nearest_double(x));
-      }
-      model += '"';
-    }
-    model += "/>";
-  }
-  model += "</build>\n</model>\n";
-  return zip_bytes(
-      {{"[Content_Types].xml",
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-        "<Types xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\">\n"
-        " <Default Extension=\"rels\" ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/>\n"
-        " <Default Extension=\"model\" ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/>\n"
-        "</Types>\n"},
-       {"_rels/.rels",
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-        "<Relationships xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\">\n"
-        " <Relationship Target=\"/3D/3dmodel.model\" Id=\"rel0\" Type=\"" +
-            std::string(kModelType) + "\"/>\n</Relationships>\n"},
-       {"3D/3dmodel.model", std::move(model)}});
 }
 
 }  // namespace nef

@@ -50,7 +50,7 @@ TEST_CASE("Where two poses explain the few corners that are seen, those of marke
   Lens lens = testing::usual_lens(3000);
   lens.distortion = {0, 0, 0, 0, 0};
   cv::RNG random(7);
-  const testing::BoardCamera camera = testing::turntable_before(lens, 5, 4000)[2];
+  const testing::BoardCamera camera = testing::turntable_before(lens, 5, 12000)[2];
   SeenBoard seen = seen_by(camera, random);
   SeenBoard few;
   for (const std::size_t i : {0U, 1U, 2U, 6U, 7U, 8U}) {

@@ -2,6 +2,7 @@
 """Calls with wrong arguments: one line that names the argument, what it must be, and what was given."""
 import copy
 
+import numpy
 import pytest
 
 import nef
@@ -15,6 +16,8 @@ REFUSED = [
     (lambda: CUBE.translate(1, 2, 0.5), "translate() was called with too many arguments, 3: translate(by); "
                                         "three coordinates are one argument, such as (0, 0, 1)"),
     (lambda: nef.unite_all(CUBE, CUBE, CUBE), "unite_all() was called with too many arguments, 3: unite_all(sets, threads=1)"),
+    (lambda: nef.hull(CUBE), "points must be points; the hull of sets is nef.minkowski.hull(a), or of a | b for two"),
+    (lambda: nef.hull([CUBE, CUBE]), "points must be points; the hull of sets is nef.minkowski.hull(a), or of a | b for two"),
     (lambda: nef.box((0, 0, 0)), "box() lacks the argument 'high': box(low, high)"),
     (lambda: nef.box(low=(0, 0, 0), hi=(1, 1, 1)), "box() has no argument 'hi': box(low, high)"),
     (lambda: nef.box((0, 0, 0), (1, 1, 1), low=(2, 2, 2)), "box() was given the argument 'low' twice: box(low, high)"),
@@ -65,6 +68,15 @@ def test_errors_of_functions_are_not_changed():
         nef.box((0, 0, 0), (1, 1, None))
     with pytest.raises(TypeError, match="unsupported operand"):
         CUBE - 3
+
+
+def test_a_single_ring_is_not_a_list_of_rings():
+    triangle = [(0, 0, 0), (1, 0, 0), ("1/3", 1, 0)]
+    for ring in (triangle, numpy.array(triangle[:2]), [("1/3", 0, 0), (1, 0, 0)]):
+        with pytest.raises(nef.InputError, match=r"^rings must be a list of rings, .* write \[ring\] for a single one$"):
+            nef.polygon(ring)
+    assert nef.polygon([triangle]).surface_area() == 0.5
+    assert nef.polygon(iter([triangle])) == nef.polygon([triangle])
 
 
 def test_names_of_other_packages_get_a_hint():

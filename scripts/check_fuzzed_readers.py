@@ -35,6 +35,7 @@ THROUGH = {
     "parse_numbers": "words of the command line",
     "parse_lines": "read_path, which it reads for",
     "parse_triple": "words of the command line",
+    "parse_plane": "words of the command line",
     "parse_steps": "evaluate_expression, a line each",
     "read_polygons": "read_json_scene, whose rings it reads",
     "read_queries": "parse_exact_json",

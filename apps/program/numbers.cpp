@@ -53,6 +53,20 @@ Rational3 parse_triple(std::string_view text, const std::string& what) {
   return {n[0], n[1], n[2]};
 }
 
+std::array<Rational, 4> parse_plane(std::string_view text, const std::string& option) {
+  const std::string expected = option +
+                               ": expected four numbers a,b,c,d, of the plane ax + by + cz + d = 0 (z = 2 is " +
+                               "0,0,1,-2), instead of '" + std::string(text) + "'";
+  std::vector<Rational> n;
+  try {
+    n = parse_numbers(text, option);
+  } catch (const InputError&) {
+    throw InputError(expected);
+  }
+  if (n.size() != 4) throw InputError(expected);
+  return {n[0], n[1], n[2], n[3]};
+}
+
 std::vector<NumbersOfLine> parse_lines(const std::string& text, const std::string& file) {
   std::vector<NumbersOfLine> result;
   std::istringstream lines(text);

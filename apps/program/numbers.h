@@ -3,6 +3,7 @@
 // Lists of exact numbers as people write them on command lines and in text files.
 #pragma once
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,6 +20,9 @@ std::vector<Rational> parse_numbers(std::string_view text, std::size_t count, co
 
 /// Three numbers "x,y,z".
 Rational3 parse_triple(std::string_view text, const std::string& what);
+
+/// The plane ax + by + cz + d = 0 of the four numbers "a,b,c,d" after an option.
+std::array<Rational, 4> parse_plane(std::string_view text, const std::string& option);
 
 /// A line of a text that has numbers, and its place for messages: "file:line".
 struct NumbersOfLine {

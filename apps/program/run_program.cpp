@@ -78,8 +78,23 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 20> kOtherNa
     {"simplify", "decimate"}, {"slice", "section"},    {"subtract", "difference"}, {"translate", "transform"},
 }};
 
+// What another program of the suite does.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kOfOtherPrograms{{
+    {"decompose", "minkowski A --decompose -o B"},
+    {"grow", "minkowski A --offset R -o B"},
+    {"hull", "minkowski A --hull -o B"},
+    {"minkowski", "minkowski A B -o C"},
+    {"offset", "minkowski A --offset R -o B"},
+    {"plan", "planner SCENE"},
+    {"shrink", "minkowski A --offset -R -o B"},
+    {"sum", "minkowski A B -o C"},
+}};
+
 std::string suggested_subcommand(const CLI::App& app, const std::string& word) {
   const std::vector<std::string> names = subcommand_names(app);
+  for (const auto& [other, command] : kOfOtherPrograms) {
+    if (word == other) return "; that is '" + std::string(command) + "'";
+  }
   for (const auto& [other, name] : kOtherNames) {
     if (word != other || std::find(names.begin(), names.end(), name) == names.end()) continue;
     return "; did you mean '" + std::string(name) + "'?";

@@ -17,6 +17,7 @@
 #include "nef/construct/construct.h"
 #include "nef/geometry/vectors.h"
 #include "nef/io/file_bytes.h"
+#include "nef/io/output_path.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/tiles/storage/tile_folder.h"
 
@@ -71,6 +72,14 @@ void Session::write(const std::string& path, const std::function<WrittenFile(Mes
   note_all(notes);
   hide_phase();
   notes_.wrote(path, written);
+}
+
+void Session::require_output(const std::vector<std::string>& others) const {
+  if (output.empty() || output == "-" || names_tile_folder(output)) return;
+  const std::string extension = lower_extension(output);
+  const bool known = is_file_extension(extension) || std::find(others.begin(), others.end(), extension) != others.end();
+  if (format.empty() && !known) throw unknown_extension(output, others);
+  require_folder_of(output);
 }
 
 void Session::store(const Polyhedron& set) {

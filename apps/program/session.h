@@ -59,6 +59,9 @@ class Session {
   Polyhedron load(const std::string& path, const Monitor& monitor);
   /// The set that a mesh bounds, by the flags; messages begin with `name`.
   Polyhedron solid_of(const Mesh& mesh, const std::string& name);
+  /// Throws FileError if no set can be written to `output`: its extension is neither that of a format nor one of
+  /// `others`, or its folder is missing. Programs call it before they read, so that no long run ends with it.
+  void require_output(const std::vector<std::string>& others = {}) const;
   /// Writes a set to `output`, if there is one; "-" is standard output, which then holds nothing else.
   void store(const Polyhedron& set);
   /// The same to another path, with other options than the flags'.

@@ -29,6 +29,8 @@ bool is_resolved(const MeshProblem& problem, Crossings rule) {
 const char* advice_to_repair(MeshProblemKind kind) {
   if (kind == MeshProblemKind::kOpenBorder) return "; --close (close=10 in Python) closes holes by a guess";
   if (kind == MeshProblemKind::kInconsistentOrientation) return "; nef repair flips faces to fit their neighbours";
+  if (kind == MeshProblemKind::kNonManifoldEdge)
+    return "; nef check lists all problems, nef repair repairs what it can";
   return "";
 }
 
@@ -52,6 +54,7 @@ CheckedSurface::CheckedSurface(const Mesh& mesh, Extent extent, Crossings rule, 
     }
     in_contact_ = in_contact_ || !problem.legal || problem.kind == MeshProblemKind::kTouching ||
                   problem.kind == MeshProblemKind::kDuplicateFace;
+    unpaired_ = unpaired_ || (!problem.legal && problem.balance == EdgeBalance::kOdd);
     inside_out_ = inside_out_ || problem.kind == MeshProblemKind::kInsideOut;
   }
   faces_without_area_ =

@@ -73,6 +73,9 @@ class CheckedSurface {
   /// The volume is negative: the faces are clockwise as seen from outside.
   [[nodiscard]] bool inside_out() const { return inside_out_; }
 
+  /// Some edge has an odd number of faces, as at holes and inner walls: a rule decides which faces count.
+  [[nodiscard]] bool is_unpaired() const { return unpaired_; }
+
   [[nodiscard]] std::size_t faces_without_area() const { return faces_without_area_; }
 
   /// Faces of components that enclose nothing, as each face has another one on its back (count_cancelled). O(n log n)
@@ -102,6 +105,7 @@ class CheckedSurface {
   const MeshProblem* refused_ = nullptr;  // the first that the rule has no answer to
   bool in_contact_ = false;
   bool inside_out_ = false;
+  bool unpaired_ = false;
   std::size_t faces_without_area_ = 0;
 };
 

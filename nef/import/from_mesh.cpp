@@ -139,7 +139,10 @@ ResolvedMesh resolve_mesh(CheckedSurface&& checked, const MeshOptions& options, 
                          .monitor = options.monitor};
   if (checked.in_contact()) {
     const Mesh& mesh = checked.mesh();
-    return arranged(mesh, std::move(checked).take(), fill, options, messages);
+    const bool is_unpaired = checked.is_unpaired();
+    ResolvedMesh result = arranged(mesh, std::move(checked).take(), fill, options, messages);
+    result.is_unpaired = is_unpaired;
+    return result;
   }
   ResolvedMesh result;
   result.inside_out = checked.inside_out();
@@ -203,10 +206,11 @@ std::string note_about(const ResolvedMesh& resolved, Crossings rule) {
   if (rule == Crossings::kRefuse) return "";
   const std::size_t pairs = resolved.crossing_pairs;
   const bool is_guess = rule == Crossings::kGuess && resolved.is_arranged;
-  if (pairs == 0 && resolved.lowest >= 0 && resolved.highest <= 1 && !is_guess) return "";
-  const std::string what = pairs > 0  ? crossing_text(pairs)
-                           : is_guess ? "the mesh may have holes"
-                                      : "the mesh encloses parts of space several times or inside out";
+  if (pairs == 0 && resolved.lowest >= 0 && resolved.highest <= 1 && !is_guess && !resolved.is_unpaired) return "";
+  const std::string what = pairs > 0              ? crossing_text(pairs)
+                           : is_guess             ? "the mesh may have holes"
+                           : resolved.is_unpaired ? "edges with an odd number of faces"
+                                                  : "the mesh encloses parts of space several times or inside out";
   return what + "; selected " + taken_by(rule);
 }
 

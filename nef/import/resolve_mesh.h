@@ -17,6 +17,7 @@ struct ResolvedMesh {
   Polyhedron set;
   std::size_t crossing_pairs = 0;  ///< pairs of faces that cross or overlap, or faces that do with themselves
   bool is_arranged = false;        ///< faces were in contact, or components inside of others: winding numbers decided
+  bool is_unpaired = false;        ///< edges had an odd number of faces (CheckedSurface::is_unpaired)
   bool inside_out = false;         ///< the mesh enclosed a negative volume and counts as if it were turned over
   int lowest = 0;                  ///< winding number; by kRefuse as if the mesh had been turned over
   int highest = 1;

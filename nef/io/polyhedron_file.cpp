@@ -13,7 +13,6 @@
 
 #include "nef/base/counted.h"
 #include "nef/base/freed_memory.h"
-#include "nef/base/text/word_list.h"
 #include "nef/export/to_mesh.h"
 #include "nef/geometry/vectors.h"
 #include "nef/io/cgal/cgal_nef3.h"
@@ -23,6 +22,7 @@
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/native/native_binary.h"
 #include "nef/io/native/native_format.h"
+#include "nef/io/output_path.h"
 #include "nef/mesh/recenter.h"
 #include "nef/mesh/separate_sheets.h"
 #include "nef/polyhedron.h"
@@ -330,9 +330,7 @@ WrittenFile write_polyhedron(const std::string& path, const Polyhedron& polyhedr
     write_file(path, format->write(polyhedron, options.text, messages));
     return {};
   }
-  if (find_mesh_format(extension) == nullptr) {
-    throw FileError(FileProblem::kUnreadable, path + ": unknown extension; use " + word_list(file_extensions(), "or"));
-  }
+  if (find_mesh_format(extension) == nullptr) throw unknown_extension(path);
   return write_boundary(path, polyhedron, options, nullptr, messages).file;
 }
 

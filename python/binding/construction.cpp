@@ -59,13 +59,26 @@ Polyhedron cylinder(py::handle height, py::handle radius, const py::object& top,
   return call(2 * around, [=](const Monitor& monitor) { return make_cylinder(h, bottom, above, around, monitor); });
 }
 
+// The first item of a sequence; nothing of what is none, or is empty.
+py::object first_item(py::handle value) {
+  if (!py::isinstance<py::sequence>(value) || py::isinstance<py::str>(value) || py::len(value) == 0) return py::none();
+  return value[py::int_(0)];
+}
+
 Polyhedron hull(py::handle points) {
+  if (py::isinstance<Polyhedron>(points) || py::isinstance<Polyhedron>(first_item(points))) {
+    throw py::type_error("points must be points; the hull of sets is nef.minkowski.hull(a), or of a | b for two");
+  }
   std::vector<Rational3> held = to_points(points, "points");
   const std::size_t count = held.size();
   return call(count, [held = std::move(held)](const Monitor& monitor) { return convex_hull(held, monitor); });
 }
 
 Polyhedron polygon(const py::iterable& rings) {
+  const py::object coordinate = first_item(first_item(rings));
+  if (!coordinate.is_none() && (py::isinstance<py::str>(coordinate) || !py::isinstance<py::iterable>(coordinate))) {
+    throw InputError("rings must be a list of rings, each a list of points; write [ring] for a single one");
+  }
   std::vector<std::vector<Rational3>> held;
   for (const py::handle ring : rings) held.push_back(to_points(ring, "each list in rings"));
   return make_polygon(held);

@@ -54,6 +54,10 @@ _APPLICATIONS = ("minkowski", "planner", "remeshing", "visual_hull")
 _OF_MODULE = {
     "union": "a | b, or unite_all", "intersection": "a & b, or intersect_all", "difference": "a - b",
     "symmetric_difference": "a ^ b", "complement": "~a", "cube": "box", "load": "read", "load_mesh": "read", "write": "a.write(path)", "save": "a.write(path)", "export": "a.write(path)", "Box": "box", "Sphere": "sphere",
+    "mesh": "from_mesh", "Mesh": "from_mesh", "open": "read", "cone": "cylinder(height, radius, 0)",
+    "extrude": "nef.minkowski.sum(polygon, segment)", "linear_extrude": "nef.minkowski.sum(polygon, segment)",
+    "mirror": "a.scale((-1, 1, 1))", "section": "a.section(normal, offset)", "slice": "a.section(normal, offset)",
+    "volume": "a.volume()", "distance": "a.distance(b)", "plot": "show", "view": "show", "Scene": "nef.planner.Scene",
     "convex_hull": "hull", "minkowski_sum": "minkowski.sum", "offset": "minkowski.offset",
     "decimate": "nef.remeshing.decimate", "simplify": "nef.remeshing.decimate", "subdivide": "nef.remeshing.subdivide",
 }
@@ -65,6 +69,12 @@ _OF_SET = {
     "transformed": "transform", "hull": "nef.minkowski.hull", "convex_hull": "nef.minkowski.hull",
     "offset": "nef.minkowski.offset", "minkowski_sum": "nef.minkowski.sum",
     "decimate": "nef.remeshing.decimate", "simplify": "nef.remeshing.decimate", "subdivide": "nef.remeshing.subdivide",
+    "center": "moments().centroid", "centroid": "moments().centroid", "center_mass": "moments().centroid",
+    "mirror": "scale((-1, 1, 1))", "slice": "section(normal, offset)", "cut": "section(normal, offset), or a & nef.halfspace(...)",
+    "extrude": "nef.minkowski.sum(a, segment)", "erode": "nef.minkowski.erode", "is_convex": "nef.minkowski.is_convex",
+    "inverse": "~a", "invert": "~a", "components": "split", "bbox": "bounding_box", "triangles": "to_mesh, which returns vertices and faces",
+    "intersects": "isdisjoint, or distance", "show": "nef.show(a)", "plot": "nef.show(a)", "view": "nef.show(a)",
+    "is_watertight": "to_mesh as it is: the mesh of a solid is always watertight", "is_valid": "it as it is: a set is always valid",
 }
 
 

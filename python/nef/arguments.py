@@ -118,7 +118,9 @@ def _one_complaint(function: str, parameters: List[Parameter], arguments: tuple,
             break
         positional.append(parameter)
     if len(arguments) > len(positional) and not any(p.name == "*args" for p in parameters):
-        return f"{function}() was called with too many arguments, {len(arguments)}: {usage}"
+        numbers = len(arguments) > 2 and all(isinstance(value, (int, float)) for value in arguments)
+        hint = "; three coordinates are one argument, such as (0, 0, 1)" if numbers else ""
+        return f"{function}() was called with too many arguments, {len(arguments)}: {usage}{hint}"
     named = {parameter.name: parameter for parameter in parameters}
     for name in keywords:
         if name not in named and "**kwargs" not in named:

@@ -15,11 +15,11 @@ import os
 import time
 import warnings
 from fractions import Fraction
-from typing import Any, Callable, List, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Callable, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy
 
-from . import _of_application, _planner
+from . import _nearest, _of_application, _planner
 from ._nef import Polyhedron
 from .assemblies import (Disassembly, DisassemblyStep, FreeDirections, Inseparable, Turning, Undecided, disassemble, free_directions,
                          prove_inseparable, complaint_about_inseparable)
@@ -213,6 +213,11 @@ class Plan:
 
     def __bool__(self):
         return self.status == "path"
+
+    if not TYPE_CHECKING:  # type checkers shall find unknown names themselves
+        def __getattr__(self, name):
+            hint = "; use waypoints" if name in ("path", "points", "way_points", "poses") else _nearest(name, vars(self))
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}{hint}")
 
     def __array__(self, dtype=None):
         """The way-points as an array of shape (N, 3) of the nearest floats; (N, 4) with degrees for a robot that turns about

@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Calls with wrong arguments: one line that names the argument, what it must be, and what was given."""
+import copy
+
+import numpy
 import pytest
 
 import nef
@@ -8,7 +11,13 @@ from nef.arguments import complaint
 CUBE = nef.box((0, 0, 0), (1, 1, 1))
 
 REFUSED = [
-    (lambda: nef.box(1, 2, 3), "box() was called with too many arguments, 3: box(low, high)"),
+    (lambda: nef.box(1, 2, 3), "box() was called with too many arguments, 3: box(low, high); "
+                                "three coordinates are one argument, such as (0, 0, 1)"),
+    (lambda: CUBE.translate(1, 2, 0.5), "translate() was called with too many arguments, 3: translate(by); "
+                                        "three coordinates are one argument, such as (0, 0, 1)"),
+    (lambda: nef.unite_all(CUBE, CUBE, CUBE), "unite_all() was called with too many arguments, 3: unite_all(sets, threads=1)"),
+    (lambda: nef.hull(CUBE), "points must be points; the hull of sets is nef.minkowski.hull(a), or of a | b for two"),
+    (lambda: nef.hull([CUBE, CUBE]), "points must be points; the hull of sets is nef.minkowski.hull(a), or of a | b for two"),
     (lambda: nef.box((0, 0, 0)), "box() lacks the argument 'high': box(low, high)"),
     (lambda: nef.box(low=(0, 0, 0), hi=(1, 1, 1)), "box() has no argument 'hi': box(low, high)"),
     (lambda: nef.box((0, 0, 0), (1, 1, 1), low=(2, 2, 2)), "box() was given the argument 'low' twice: box(low, high)"),
@@ -61,6 +70,24 @@ def test_errors_of_functions_are_not_changed():
         CUBE - 3
 
 
+def test_a_single_ring_is_not_a_list_of_rings():
+    triangle = [(0, 0, 0), (1, 0, 0), ("1/3", 1, 0)]
+    for ring in (triangle, numpy.array(triangle[:2]), [("1/3", 0, 0), (1, 0, 0)]):
+        with pytest.raises(nef.InputError, match=r"^rings must be a list of rings, .* write \[ring\] for a single one$"):
+            nef.polygon(ring)
+    assert nef.polygon([triangle]).surface_area() == 0.5
+    assert nef.polygon(iter([triangle])) == nef.polygon([triangle])
+
+
+def test_names_of_other_packages_get_a_hint():
+    for name, hint in (("cone", r"cylinder\(height, radius, 0\)"), ("mirror", r"a.scale\(\(-1, 1, 1\)\)"), ("slice", "a.section")):
+        with pytest.raises(AttributeError, match=f"module 'nef' has no attribute '{name}'; use {hint}"):
+            getattr(nef, name)
+    for name, hint in (("centroid", r"moments\(\).centroid"), ("is_watertight", "to_mesh as it is"), ("show", r"nef.show\(a\)")):
+        with pytest.raises(AttributeError, match=f"'nef.Polyhedron' object has no attribute '{name}'; use {hint}"):
+            getattr(CUBE, name)
+
+
 def test_several_overloads():
     text = ("f(): incompatible function arguments. The following argument types are supported:\n"
             "    1. (a: int) -> int\n    2. (text: str, sep: str = ', ') -> str\n\nInvoked with: 1.5")
@@ -76,3 +103,12 @@ def test_misspelt_names_get_a_suggestion(needs):
             getattr(needs(module), name)
     with pytest.raises(AttributeError, match="no attribute 'volum'; did you mean 'volume'"):
         CUBE.volum
+
+
+def test_the_way_points_of_a_plan_are_found(needs):
+    plan = needs("planner").Scene(CUBE, []).plan((5, 0, 0), (9, 0, 0))
+    with pytest.raises(AttributeError, match="'Plan' object has no attribute 'path'; use waypoints"):
+        plan.path
+    with pytest.raises(AttributeError, match="no attribute 'lenght'; did you mean 'length'"):
+        plan.lenght
+    assert copy.copy(plan).waypoints == plan.waypoints

@@ -191,6 +191,15 @@ TEST_CASE("errors give the column and what was expected") {
   CHECK(refusal("box(0,0,0,1,1,1) box(0,0,0,1,1,1)") ==
         "column 18: expected an operator (+ * - ^) or the end, found 'box'");
   CHECK(refusal("cube(1)") == "column 1: there is no set or function 'cube'; a cube is box(0,0,0, 1,1,1)");
+  CHECK(refusal("cone(1, 2)") == "column 1: there is no set or function 'cone'; a cone is cylinder(height, radius, 0)");
+  // What the hints say can be computed.
+  CHECK(equal(eval("cylinder(1, 1, 0)"), eval("cylinder(1, 1, 0, 32)")));
+  for (const std::string name : {"extrude", "linear_extrude"}) {
+    CHECK(refusal(name + "(nothing, 2)").find("a prism is minkowski(polygon(") != std::string::npos);
+  }
+  CHECK(refusal("mirror(nothing)").find("scale(A, -1,1,1) mirrors in x") != std::string::npos);
+  CHECK(same("scale(box(1,0,0,2,1,1), -1,1,1)", "box(-2,0,0,-1,1,1)"));
+  CHECK(refusal("offset(nothing, 1)").find("minkowski(A, ball(r, 4)) grows A by r") != std::string::npos);
   CHECK(refusal("spere(1)") == "column 1: there is no set or function 'spere'; did you mean 'sphere'?");
   CHECK(refusal("a.off + b.off") == "column 1: there is no set or function 'a'; a file is named by file(\"part.off\")");
   CHECK(refusal("models/a.off") ==

@@ -46,6 +46,23 @@ TEST_CASE("help and version everywhere") {
   }
 }
 
+TEST_CASE("an output that cannot be written is refused before anything is read") {
+  const Workplace here;
+  here.write("a.off", cube_off(0, 2));
+  for (const std::string command :
+       {"convert missing.off", "union a.off missing.off", "section missing.off --plane 0,0,1,-1",
+        "split missing.off --largest", "repair missing.off"}) {
+    INFO(command);
+    check_refused(here.nef(command + " -o b.step"), "b.step: unknown extension; use ");
+    check_refused(here.nef(command + " -o folder/b.off"),
+                  "folder/b.off: cannot be written (No such file or directory)");
+    check_refused(here.nef(command + " -o b.off"), "missing.off: no such file");
+  }
+  CHECK(here.nef("convert a.off -o b.step --format stl").code == 0);
+  CHECK(here.nef("convert a.off -o a.tiles").code == 0);
+  CHECK(here.nef("section a.off --plane 0,0,1,-1 -o b.svg").code == 0);
+}
+
 TEST_CASE("usage errors are one line and exit code 2") {
   const Workplace here;
   here.write("a.off", cube_off(0, 2));
@@ -54,7 +71,11 @@ TEST_CASE("usage errors are one line and exit code 2") {
   check_refused(here.nef("unoin a.off -o b.off"),
                 "there is no subcommand 'unoin'; did you mean 'union'? (see nef --help)");
   check_refused(here.nef("rotate a.off -o b.off"), "there is no subcommand 'rotate'; did you mean 'transform'?");
-  check_refused(here.nef("section a.off --plane z=2"), "--plane a,b,c,d: 'z=2' is not a number");
+  check_refused(here.nef("offset a.off -o b.off"), "'offset'; that is 'minkowski A --offset R -o B'");
+  for (const std::string plane : {"z=2", "0,0,1"}) {
+    check_refused(here.nef("section a.off --plane " + plane), "(z = 2 is 0,0,1,-2), instead of '" + plane + "'");
+    check_refused(here.nef("picture a.off -o a.png --section " + plane), "--section: expected four numbers a,b,c,d");
+  }
   check_refused(here.nef("section a.off --plane 0,0,1,-1 -o b.pdf"), "svg, dxf, nef,");
   check_refused(here.nef("info a.off --thraeds 2"),
                 "no option '--thraeds'; did you mean '--threads'? (see nef info --help)");

@@ -129,6 +129,7 @@ void check_output(const Arguments& a, Task task) {
     throw InputError(is_bare ? "give two sets and an output: minkowski A B -o OUT (see minkowski --help)"
                              : "no output: name a file with -o");
   }
+  if (task != Task::kPenetration && task != Task::kDecompose) a.session.require_output();
   if (!a.format.empty() && task != Task::kDecompose) {
     throw InputError("--format goes with --decompose; -o names a file by its extension");
   }

@@ -29,7 +29,11 @@ void add(CLI::App& app, Session& session, const Command& row) {
     CLI::Option* output = add_output_flags(command, session)->required(row.output == Output::kRequired);
     if (!row.output_text.empty()) output->description(row.output_text);
   }
-  command->callback([&session, run = row.run] { run(session); });
+  const bool writes_set = row.output != Output::kNone && row.output_text.empty();
+  command->callback([&session, run = row.run, writes_set] {
+    if (writes_set) session.require_output();
+    run(session);
+  });
 }
 
 void add_commands(CLI::App& app, Session& session, const CommandExtensions& extensions) {

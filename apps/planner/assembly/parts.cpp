@@ -30,6 +30,7 @@ Assembly parse_assembly(const std::string& text, const std::string& folder, cons
                         const MeshOptions& meshes) {
   const nlohmann::json value = parse_exact_json(text, name);
   const JsonReader root(value, name);
+  require_kind(root, "parts");
   root.require_keys({"parts"}, {"rotation"});
   if (!value["parts"].is_object()) root.fail(R"(an assembly is {"parts": {"name": file or expression, ...}})");
   Assembly assembly;

@@ -68,6 +68,7 @@ Mechanism parse_mechanism(const std::string& text, const std::string& folder, co
                           const MeshOptions& meshes) {
   const nlohmann::json value = parse_exact_json(text, name);
   const JsonReader root(value, name);
+  require_kind(root, "moving");
   root.require_keys({"moving", "fixed", "joint"});
   if (!value["fixed"].is_array()) root.fail(R"('fixed' must be a list, as in ["wall.off"])");
   Mechanism m;

@@ -49,6 +49,9 @@ bool is_turned(const RigidPose& pose) {
 std::vector<RigidPose> read_path(const std::string& file) {
   const std::string text = read_file(file);
   const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (text.rfind("t,", 0) == 0) {
+    throw InputError(file + ": this is a table with times; name the .json or .txt file of the path instead");
+  }
   const bool is_json = first != std::string::npos && text[first] == '{';
   std::vector<RigidPose> poses = is_json ? poses_of_json(text, file) : poses_of_lines(text, file);
   if (poses.empty()) throw InputError(file + ": contains no way-points");

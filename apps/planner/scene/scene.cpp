@@ -81,6 +81,7 @@ Scene parse_scene(const std::string& text, const std::string& folder, const std:
   const Monitor& monitor = meshes.monitor;
   const nlohmann::json value = parse_exact_json(text, name);
   const JsonReader root(value, name);
+  require_kind(root, "robot");
   root.require_keys({"robot", "obstacles"}, {"reference", "box", "start", "goal", "contact", "rotation", "name"});
   if (root.has("name") && !value["name"].is_string()) root.fail("'name' must be a string");
   Scene scene;

@@ -165,6 +165,18 @@ Polyhedron shape_of(const JsonReader& value, const std::string& folder, const Me
   }
 }
 
+void require_kind(const JsonReader& root, const char* key) {
+  constexpr std::pair<const char*, const char*> kKinds[] = {
+      {"robot", "this is a scene of a robot among obstacles, for planner FILE without another option"},
+      {"parts", "this is an assembly, for planner --assembly FILE or --verdict FILE"},
+      {"moving", "this is a mechanism, for planner --range FILE or --verdict FILE"},
+  };
+  if (root.has(key)) return;
+  for (const auto& [other, text] : kKinds) {
+    if (root.has(other)) root.fail(text);
+  }
+}
+
 Polyhedron solid_of(const JsonReader& value, const std::string& folder, const MeshOptions& options,
                     Messages& messages) {
   Polyhedron set = shape_of(value, folder, options, messages);

@@ -34,6 +34,10 @@ Polyhedron shape_of(const JsonReader& value, const std::string& folder, const Me
 /// The same for what must be a bounded solid.
 Polyhedron solid_of(const JsonReader& value, const std::string& folder, const MeshOptions& options, Messages& messages);
 
+/// Fails if a file is of another kind than its reader expects, by the key that only one kind has: "robot" of a scene,
+/// "parts" of an assembly, "moving" of a mechanism. The message names the option for what it is.
+void require_kind(const JsonReader& root, const char* key);
+
 /// A direction that is not zero: "x", "y", "z" or three numbers.
 Rational3 direction_of(const JsonReader& value);
 

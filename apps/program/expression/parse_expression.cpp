@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <utility>
 
 #include "apps/program/expression/expression.h"
 #include "apps/program/expression/functions.h"
@@ -182,12 +183,24 @@ class ExpressionParser : private ExpressionScanner {
     return node;
   }
 
+  // What other programs call what is written otherwise here.
+  static constexpr std::pair<const char*, const char*> kOtherNames[] = {
+      {"cube", "a cube is box(0,0,0, 1,1,1)"},
+      {"cone", "a cone is cylinder(height, radius, 0)"},
+      {"extrude", "a prism is minkowski(polygon((0,0,0), (1,0,0), (0,1,0)), segment((0,0,0), (0,0,2)))"},
+      {"linear_extrude", "a prism is minkowski(polygon((0,0,0), (1,0,0), (0,1,0)), segment((0,0,0), (0,0,2)))"},
+      {"mirror", "scale(A, -1,1,1) mirrors in x"},
+      {"offset", "minkowski(A, ball(r, 4)) grows A by r, erode(A, ball(r, 4)) shrinks it"},
+  };
+
   static constexpr const char* kFilesAreNamed = "; a file is named by file(\"part.off\")";
 
   [[nodiscard]] std::string suggestion(std::string_view name) const {
     std::vector<std::string> known = function_names();
     for (const auto& [variable, index] : sets_) known.push_back(variable);
-    if (name == "cube") return "; a cube is box(0,0,0, 1,1,1)";
+    for (const auto& [other, hint] : kOtherNames) {
+      if (name == other) return "; " + std::string(hint);
+    }
     if (name == "read" || name == "load" || name == "import" || name == "open") return kFilesAreNamed;
     const std::string_view next = text().substr(std::min(offset() + name.size(), text().size()));
     if (next.size() > 1 && next[0] == '.' && is_letter(next[1])) return kFilesAreNamed;  // "a.off"

@@ -102,7 +102,7 @@ export class HullsPanel {
     byId("hulls-error").textContent = "";
     const { report, seconds } = done;
     fillTable(byId("hulls-measures"), [...measureRows(report.result),
-      ["Time", `outlines ${secondsText(report.outlines_s)}, hull ${secondsText(report.op_s)}, ${secondsText(seconds)} until it was here`]]);
+      ["Time", `outlines ${secondsText(report.outlines_s)}, hull ${secondsText(report.op_s)}, ${secondsText(seconds)} until shown`]]);
     fillNotes(byId("hulls-notes"), report.notes);
     this.#showViews(report.views);
     this.sets = ["result"];

@@ -195,7 +195,7 @@ export class PlannerPanel {
       const dimensions = tight.map(({ dimension }) => ["points", "lines", "sheets"][dimension]).join(", ");
       rows.push(["Tight passages", tight.length ? `${tight.length}: ${dimensions}` : "none"]);
     }
-    rows.push(["Time", `${secondsText(report.op_s)}, ${secondsText(seconds)} until it was here`]);
+    rows.push(["Time", `${secondsText(report.op_s)} to compute, ${secondsText(seconds)} until shown`]);
     fillTable(byId("planner-measures"), rows);
     fillNotes(byId("planner-notes"), report.notes);
     this.sets = answer.components ? ["free space", "robot"] : ["robot"];

@@ -94,7 +94,7 @@ export class SetsPanel {
     this.editor.showError(null);
     const { report, seconds } = done;
     fillTable(byId("sets-measures"), [...measureRows(report.result),
-      ["Time", `${secondsText(report.op_s)}, ${secondsText(seconds)} until it was here`]]);
+      ["Time", `${secondsText(report.op_s)} to compute, ${secondsText(seconds)} until shown`]]);
     fillNotes(byId("sets-notes"), report.notes);
     this.sets = ["result"];
     this.exportForm.offer(this.sets);

@@ -101,7 +101,7 @@ export class SumsPanel {
     } else {
       rows.push(...measureRows(report.result));
     }
-    fillTable(byId("sums-measures"), [...rows, ["Time", `${secondsText(report.op_s)}, ${secondsText(seconds)} until it was here`]]);
+    fillTable(byId("sums-measures"), [...rows, ["Time", `${secondsText(report.op_s)} to compute, ${secondsText(seconds)} until shown`]]);
     fillNotes(byId("sums-notes"), report.notes);
     this.sets = report.outer ? ["result", "outer"] : ["result"];
     this.exportForm.offer(this.sets);

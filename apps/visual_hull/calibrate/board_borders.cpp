@@ -79,7 +79,8 @@ struct Profile {
   int first = 0, last = 0;  // of the steps -kSteps .. kSteps, those that are nearer than the next border
   std::array<float, 2 * kSteps + 1> values{};
 
-  [[nodiscard]] double value(int step) const { return values[static_cast<std::size_t>(step + kSteps)]; }
+  [[nodiscard]] static std::size_t place_of(int step) { return static_cast<std::size_t>(step) + kSteps; }
+  [[nodiscard]] double value(int step) const { return values[place_of(step)]; }
   [[nodiscard]] double mean(int from) const {
     double sum = 0;
     for (int i = from; i < from + kEnd; ++i) sum += value(i);
@@ -149,7 +150,7 @@ float brightness_at(const cv::Mat& gray, const cv::Vec2d& p) {
 void look_at(const cv::Mat& gray, Profile& profile) {
   for (int k = profile.first; k <= profile.last; ++k) {
     const cv::Vec2d p = cv::Vec2d(profile.middle.x, profile.middle.y) + kStep * k * profile.direction;
-    profile.values[static_cast<std::size_t>(k + kSteps)] = brightness_at(gray, p);
+    profile.values[Profile::place_of(k)] = brightness_at(gray, p);
   }
 }
 

@@ -181,6 +181,7 @@ int run(const Arguments& a) {
   check_output(a);
   if (!a.frames.empty()) return make_frames(a);
   check_file_names(a);
+  if (!a.check) session.require_output();
   const Options options = to_options(a);
   const Scene scene = scene_of(a);
   if (a.check) return check_scene(a, scene);
@@ -205,11 +206,19 @@ int run(const Arguments& a) {
 
 constexpr int kBadUsage = 2;
 
+using Subcommand = int (*)(int argc, char** argv);
+constexpr std::pair<const char*, Subcommand> kSubcommands[] = {{"masks", run_masks_command},
+                                                               {"board", run_board_command},
+                                                               {"calibrate", run_calibrate_command},
+                                                               {"combine", run_combine_command}};
+
 // A suggestion if a first word is almost a subcommand, and no scene.
 std::string misspelt_subcommand(const std::string& word) {
   std::error_code error;
   if (word.empty() || std::filesystem::exists(word, error)) return {};
-  return nef::did_you_mean(word, {"masks", "board", "calibrate"});
+  std::vector<std::string> names;
+  for (const auto& [name, run] : kSubcommands) names.emplace_back(name);
+  return nef::did_you_mean(word, names);
 }
 
 }  // namespace
@@ -218,11 +227,16 @@ int run_command(int argc, char** argv) {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);  // errors are ours to tell
   cv::setNumThreads(1);                                                   // threads have whole views to work on
   const std::string first = argc > 1 ? argv[1] : "";
-  if (first == "masks") return run_masks_command(argc - 1, argv + 1);
-  if (first == "board") return run_board_command(argc - 1, argv + 1);
-  if (first == "calibrate") return run_calibrate_command(argc - 1, argv + 1);
-  if (first == "combine") return run_combine_command(argc - 1, argv + 1);
   nef::Session session("visual_hull", std::cout, std::cerr);
+  for (const auto& [name, run_subcommand] : kSubcommands) {
+    if (first != name) continue;
+    const int code = run_subcommand(argc - 1, argv + 1);
+    std::error_code error;
+    if (code == kBadUsage && fs::is_directory(first, error)) {
+      session.complain("'" + first + "' is a subcommand; if you mean the folder of this name, write ./" + first);
+    }
+    return code;
+  }
   const nef::ProgressFunction show = [&session](const char* phase, std::size_t done, std::size_t total) {
     session.show_phase(phase, done, total);
   };

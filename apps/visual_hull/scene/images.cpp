@@ -136,6 +136,7 @@ std::vector<fs::path> images_of(const Scene& scene, const fs::path& folder, cons
   }
   const bool any_named =
       std::any_of(scene.views.begin(), scene.views.end(), [](const View& v) { return v.polygons || !v.image.empty(); });
+  std::string other_number;  // a folder with images, but not one for each view
   if (!any_named) {
     for (const char* sub : {"masks", "silhouettes", "images", ""}) {
       std::error_code error;
@@ -143,6 +144,11 @@ std::vector<fs::path> images_of(const Scene& scene, const fs::path& folder, cons
       if (!fs::is_directory(place, error)) continue;
       std::vector<fs::path> files = list_images(place);
       if (files.size() == count) return pair_images(scene.views, place, std::move(files), notes);
+      if (!files.empty() && other_number.empty()) {
+        other_number =
+            fmt::format("{} contains {} images, but the scene has {} views; --images DIR names another folder",
+                        place.empty() ? "." : place.string(), files.size(), count);
+      }
     }
   }
   std::vector<fs::path> folders{folder};
@@ -152,6 +158,7 @@ std::vector<fs::path> images_of(const Scene& scene, const fs::path& folder, cons
     const View& view = scene.views[i];
     if (view.polygons) continue;
     if (view.image.empty()) {
+      if (!other_number.empty()) throw nef::InputError(other_number);
       throw nef::InputError(
           fmt::format("view {}: the scene names no image, and neither {} nor masks/, silhouettes/ or images/ in it "
                       "contains {} images, one for each view; give --images DIR or --silhouette",

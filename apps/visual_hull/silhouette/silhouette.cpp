@@ -165,7 +165,7 @@ cv::Mat read_mask(const std::filesystem::path& image, const std::string& view, c
     std::ostringstream range;
     range << low << " to " << high;
     throw nef::InputError("view " + view + ": the silhouette is empty (values of " + image.string() + " go from " +
-                          range.str() + "; see --threshold, --channel and --invert)");
+                          range.str() + "; see --threshold, --channel and --invert; photographs need --mask auto)");
   }
   return mask;
 }

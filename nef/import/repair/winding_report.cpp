@@ -36,10 +36,8 @@ std::string line_about(int winding, const WindingVolume& entry, bool taken, doub
 
 std::vector<std::string> lines_about(const ResolvedMesh& resolved, Crossings rule) {
   std::vector<std::string> result;
-  if (resolved.crossing_pairs > 0 || rule == Crossings::kGuess) {
-    result.push_back(
-        (resolved.crossing_pairs > 0 ? crossing_text(resolved.crossing_pairs) : "the mesh may have holes") +
-        "; selected " + taken_by(rule));
+  if (resolved.crossing_pairs > 0 || resolved.is_unpaired || rule == Crossings::kGuess) {
+    result.push_back(note_about(resolved, rule));
   }
   double total = 0;
   for (const auto& [winding, entry] : resolved.volumes) {

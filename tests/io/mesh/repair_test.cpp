@@ -63,6 +63,38 @@ constexpr RepairOptions kUniting{.crossings = Crossings::kUnion};
 
 }  // namespace
 
+TEST_CASE("an inner wall goes by the rule outside, and the solid is written without it") {
+  // Two rooms with one wall between them, whose edges have three faces.
+  Mesh rooms;
+  for (const int z : {0, 1, 2}) {
+    for (const auto& [x, y] : {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)}) {
+      rooms.vertices.push_back({x, y, z});
+    }
+  }
+  for (const std::uint32_t below : {0U, 4U}) {
+    for (const std::uint32_t i : {0U, 1U, 2U, 3U}) {
+      const std::uint32_t next = below + (i + 1) % 4;
+      rooms.push_face(std::vector<std::uint32_t>{below + i, next, next + 4, below + i + 4});
+    }
+  }
+  rooms.push_face(std::vector<std::uint32_t>{3, 2, 1, 0});
+  rooms.push_face(std::vector<std::uint32_t>{8, 9, 10, 11});
+  CHECK(equal(from_mesh(rooms), make_box({0, 0, 0}, {1, 1, 2})));
+  rooms.push_face(std::vector<std::uint32_t>{4, 5, 6, 7});
+  const Polyhedron wanted = make_box({0, 0, 0}, {1, 1, 2});
+  const Messages decided{"edges with an odd number of faces; selected points that cannot be reached from outside"};
+  const RepairedMesh repaired = repair_mesh(rooms, {.crossings = Crossings::kOutside});
+  CHECK(repaired.problem.empty());
+  CHECK(repaired.done == decided);
+  REQUIRE(repaired.resolved);
+  CHECK(equal(repaired.resolved->set, wanted));
+  Messages notes;
+  CHECK(equal(from_mesh(rooms, {.crossings = Crossings::kOutside}, &notes), wanted));
+  CHECK(notes == decided);
+  // With the other rules it is refused.
+  CHECK_FALSE(repair_mesh(rooms, {.crossings = Crossings::kUnion}).problem.empty());
+}
+
 TEST_CASE("A sound mesh is left alone", "[repair]") {
   const Mesh mesh = mesh_of(make_box({0, 0, 0}, {1, 2, 3}));
   const RepairedMesh repaired = repair_mesh(mesh);
@@ -502,6 +534,8 @@ TEST_CASE("Import closes holes with the lids that a repair would make, and notes
   CHECK_THROWS_WITH(
       from_mesh(open, {.close_percent = 10}),
       Catch::EndsWith("open there; lids for its hole are more than 10 % of the area, --close=17 accepts them"));
+  CHECK_THROWS_WITH(from_mesh(changed(whole, [](auto& rings) { rings.push_back(rings[0]); })),
+                    Catch::EndsWith("; nef check lists all problems, nef repair repairs what it can"));
   Messages notes;
   CHECK(equal(from_mesh(open, {.close_percent = 17}, &notes), cube));
   CHECK(notes == Messages{"1 hole closed by lids of 17 % of the area, 1 of them flat (a guess)"});

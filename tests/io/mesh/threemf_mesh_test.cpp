@@ -74,6 +74,21 @@ TEST_CASE("3MF: what is written is read, doubles and all", "[threemf]") {
   CHECK_THROWS_AS(write_polyhedron(folder.file("d.3mf"), set, exact), FileError);
 }
 
+TEST_CASE("3MF: lengths in other units become millimetres, exactly", "[threemf]") {
+  for (const auto& [unit, factor] : {std::pair("micron", Rational(1, 1000)), std::pair("millimeter", Rational(1)),
+                                     std::pair("centimeter", Rational(10)), std::pair("inch", Rational(127, 5)),
+                                     std::pair("foot", Rational(1524, 5)), std::pair("meter", Rational(1000))}) {
+    INFO(unit);
+    const std::string text =
+        model(object("1", kTetrahedronModel), "<item objectid='1' transform='1 0 0 0 1 0 0 0 1 2 0 0'/>",
+              "unit='" + std::string(unit) + "'");
+    const Polyhedron moved = transform(tetrahedron(), AffineMap::translate({2, 0, 0}));
+    CHECK(equal(read(archive(text)), transform(moved, AffineMap::scale({factor, factor, factor}))));
+  }
+  check_refused(archive(model(object("1", kTetrahedronModel), "<item objectid='1'/>", "unit='furlong'")),
+                "there is no unit 'furlong'; it must be micron, millimeter,");
+}
+
 TEST_CASE("3MF: components are placed exactly, mirrored ones flipped", "[threemf]") {
   const std::string tetrahedron_object = object("1", kTetrahedronModel);
   CHECK(equal(read(archive(model(tetrahedron_object, "<item objectid='1'/>"))), tetrahedron()));

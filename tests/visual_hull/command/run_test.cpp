@@ -188,6 +188,9 @@ TEST_CASE("Bad use and bad input: one line, exit code 2") {
   fails(run(data("letters/nef.vsh") + " --silhouette " + (s.folder() / "none.json").string()), "no such file");
   fails(run(data("eight/eight.json") + " --images " + data("letters")),
         "contains 0 images, but the scene has 12 views");
+  fails(run(data("eight") + " --turntable 11 --K 400,160,120 --radius 2 --height 1"),
+        "eight contains 12 images, but the scene has 11 views; --images DIR names another folder");
+  fails(run(data("eight/eight.json") + " -o hull.xyz"), "hull.xyz: unknown extension; use ");
   fails(run(data("eight/eight.json") + " --images /no/such/place"), "is not a directory of images");
   fails(run(data("eight/eight.json") + " --channel red"), "1 channels only");
   fails(run(data("eight/eight.json") + " --min-area 1e6"), "view eight_00.png: the silhouette is empty without");
@@ -204,12 +207,26 @@ TEST_CASE("Bad use and bad input: one line, exit code 2") {
   const std::string one = "a 100 0 0 0 0 100 0 0 0 0 1 10\n";
   fails(run(s.write("p.txt", one).string()), "view a: there is no image");
   cv::imwrite((s.folder() / "a.png").string(), cv::Mat(8, 8, CV_8U, cv::Scalar(0)));
-  fails(run((s.folder() / "p.txt").string()), "view a: the silhouette is empty");
+  fails(run((s.folder() / "p.txt").string()), "view a: the silhouette is empty (values of ");
+  fails(run((s.folder() / "p.txt").string()), "photographs need --mask auto)");
   cv::imwrite((s.folder() / "a.png").string(), cv::Mat(8, 8, CV_8U, cv::Scalar(255)));
   fails(run((s.folder() / "p.txt").string()), "give a box with --box");
   fails(run((s.folder() / "p.txt").string() + " --silhouette b=x.json"), "no view 'b'");
   CHECK(run((s.folder() / "p.txt").string() + " --box -1,-1,-1,1,1,1").code == 0);
   CHECK(run("--help").code == 0);
+}
+
+TEST_CASE("a folder with the name of a subcommand is a scene as ./NAME") {
+  const Scratch s;
+  std::filesystem::copy(data("eight"), s.folder() / "masks");
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(s.folder());
+  const Outcome taken = run("masks --turntable 12");
+  const Outcome meant = run("./masks --turntable 12");
+  std::filesystem::current_path(before);
+  CHECK(taken.code == 2);
+  CHECK_THAT(taken.output, Contains("'masks' is a subcommand; if you mean the folder of this name, write ./masks"));
+  CHECK_THAT(meant.output, Contains("--turntable: the camera is missing"));
 }
 
 TEST_CASE("A decimated hull is a legal mesh of few triangles, whose distance is told") {

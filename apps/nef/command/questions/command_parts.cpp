@@ -11,7 +11,6 @@
 #include "apps/program/numbers.h"
 #include "nef/base/counted.h"
 #include "nef/base/error.h"
-#include "nef/base/text/word_list.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/distance/distance.h"
 #include "nef/io/file_bytes.h"
@@ -21,7 +20,6 @@
 #include "nef/parts/section.h"
 #include "nef/parts/split.h"
 #include "nef/polyhedron.h"
-#include "nef/tiles/storage/tile_folder.h"
 
 namespace nef {
 namespace {
@@ -33,12 +31,6 @@ void write_section(Session& session, const Section& section, const Rational3& no
   } else if (extension == "dxf") {
     write_file(session.output, section_dxf(section, normal));
   } else {
-    if (session.format.empty() && !extension.empty() && !is_file_extension(extension) &&
-        !names_tile_folder(session.output)) {
-      std::vector<std::string> known = file_extensions();
-      known.insert(known.begin(), {"svg", "dxf"});
-      throw InputError(session.output + ": unknown extension; use " + word_list(known, "or"));
-    }
     session.store(section.set);
     return;
   }
@@ -48,8 +40,8 @@ void write_section(Session& session, const Section& section, const Rational3& no
 }
 
 void run_section(Session& session, const std::string& plane) {
-  const std::vector<Rational> n = parse_numbers(plane, "--plane a,b,c,d");
-  if (n.size() != 4) throw InputError("--plane: expected four numbers a,b,c,d instead of '" + plane + "'");
+  const std::array<Rational, 4> n = parse_plane(plane, "--plane");
+  session.require_output({"svg", "dxf"});
   const Rational3 normal{n[0], n[1], n[2]};
   const Polyhedron set = session.load(session.input);
   const Stopwatch watch;
@@ -110,6 +102,7 @@ void add_split_options(CLI::App& command, Session&, SplitFlags& flags) {
 }
 
 void run_split(Session& session, const SplitFlags& flags) {
+  if (flags.largest) session.require_output();
   const Polyhedron set = session.load(session.input);
   const Stopwatch watch;
   std::vector<Polyhedron> parts = flags.volumes ? split_volumes(set, session.monitor) : split(set, session.monitor);

@@ -100,12 +100,7 @@ void run_picture(Session& session, const PictureFlags& flags) {
   scene.indices = false;
   view::PictureOptions picture;
   if (!flags.size.empty()) parse_size(flags.size, picture);
-  if (!flags.section.empty()) {
-    const std::vector<Rational> numbers = parse_numbers(flags.section, "--section a,b,c,d");
-    if (numbers.size() != 4)
-      throw InputError("--section: expected four numbers a,b,c,d instead of '" + flags.section + "'");
-    scene.section = {numbers[0], numbers[1], numbers[2], numbers[3]};
-  }
+  if (!flags.section.empty()) scene.section = parse_plane(flags.section, "--section");
   if (!flags.from.empty()) {
     const Rational3 from = parse_triple(flags.from, "--from x,y,z");
     picture.from = {nearest_double(from[0]), nearest_double(from[1]), nearest_double(from[2])};

@@ -2,8 +2,8 @@
 //
 // A 3MF file is a zip archive; its relationships name the part with the model, whose XML is parsed while it is
 // unpacked. A part becomes objects (a mesh or placed components) and the items that are built. Items are unfolded
-// recursively with exact affine maps, parts are read at the first use, and equal points are merged. `Unfolding` stops
-// files whose components multiply beyond measure.
+// recursively with exact affine maps, from the unit of the model to millimetres, parts are read at the first use, and
+// equal points are merged. `Unfolding` stops files whose components multiply beyond measure.
 #include "nef/io/mesh/formats/threemf_mesh.h"
 
 #include <array>
@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <sstream>
+#include <tuple>
 
 #include "nef/base/text/in_quotes.h"
 #include "nef/geometry/vectors.h"
@@ -26,6 +27,11 @@ namespace nef {
 namespace {
 
 constexpr const char* kProduction = "http://schemas.microsoft.com/3dmanufacturing/production/2015/06";
+
+// The units that 3MF has, as fractions of a millimetre in lowest terms.
+constexpr std::tuple<const char*, int, int> kUnits[] = {{"micron", 1, 1000},   {"millimeter", 1, 1},
+                                                        {"centimeter", 10, 1}, {"inch", 127, 5},
+                                                        {"foot", 1524, 5},     {"meter", 1000, 1}};
 
 // An object that another one, or the build, places.
 struct Use {
@@ -44,6 +50,7 @@ struct Object {
 
 // One XML file of the archive.
 struct ArchivePart {
+  Rational unit = 1;  // in millimetres
   std::map<std::string, Object> objects;
   std::vector<Use> items;
 };
@@ -93,7 +100,16 @@ class PartReader {
       part_.items.push_back(use(e));
     } else if (e.name == "model") {
       check_extensions(e);
+      if (const std::string* unit = e.find("unit")) part_.unit = millimetres(*unit);
     }
+  }
+
+  Rational millimetres(const std::string& unit) const {
+    for (const auto& [name, numerator, denominator] : kUnits) {
+      if (unit == name) return {numerator, denominator};
+    }
+    fail(FileProblem::kSyntax,
+         "there is no unit " + in_quotes(unit) + "; it must be micron, millimeter, centimeter, inch, foot or meter");
   }
 
   void close(const std::string& name) {
@@ -185,7 +201,9 @@ class ModelReader {
 
   Mesh read(MeshParts* parts) {
     const std::string root = model_part(archive_, path_);
-    for (const Use& item : part(root).items) place(item, AffineMap::identity(), 0);
+    const ArchivePart& model = part(root);
+    const AffineMap to_millimetres = AffineMap::scale({model.unit, model.unit, model.unit});
+    for (const Use& item : model.items) place(item, to_millimetres, 0);
     if (parts != nullptr) *parts = std::move(placed_);
     return std::move(mesh_);
   }

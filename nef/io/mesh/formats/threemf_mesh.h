@@ -19,10 +19,10 @@ inline constexpr const char* kThreemfMaterials = "http://schemas.microsoft.com/3
 
 /// The triangles of everything that the file builds: meshes and components of objects, also in other parts of the
 /// archive, with their transformations done exactly; mirrored ones are turned over. Objects of support are left out.
-/// Numbers mean the decimals that they spell, in the file's unit. Equal points are one vertex. Colours, materials and
-/// textures are skipped. `parts`, if not null, receives objects with their components. Throws FileError for a damaged
-/// archive, XML that is not well formed or has a document type, an index of nothing, a required extension that may hold
-/// shapes (beams, slices), and for archives or components that grow beyond all measure when they are unpacked.
+/// Numbers mean the decimals that they spell, scaled to millimetres. Equal points are one vertex. Colours, materials
+/// and textures are skipped. `parts`, if not null, receives objects with their components. Throws FileError for a
+/// damaged archive, XML that is not well formed or has a document type, an index of nothing, a required extension that
+/// may hold shapes (beams, slices), and for archives or components that grow beyond all measure when they are unpacked.
 Mesh read_3mf(std::string_view bytes, const std::string& path, MeshParts* parts = nullptr);
 
 /// One object with the mesh's triangles, in the fewest decimals that tell the nearest doubles, moved by the offset

@@ -79,7 +79,11 @@ struct Profile {
   int first = 0, last = 0;  // of the steps -kSteps .. kSteps, those that are nearer than the next border
   std::array<float, 2 * kSteps + 1> values{};
 
-  [[nodiscard]] static std::size_t place_of(int step) { return static_cast<std::size_t>(step) + kSteps; }
+  // Of a step in `values`.
+  [[nodiscard]] static std::size_t place_of(int step) {
+    const int place = step + kSteps;
+    return static_cast<std::size_t>(place);
+  }
   [[nodiscard]] double value(int step) const { return values[place_of(step)]; }
   [[nodiscard]] double mean(int from) const {
     double sum = 0;

@@ -50,27 +50,40 @@ std::uint64_t bits_of(const std::array<std::int64_t, 3>& v) {
          static_cast<std::uint64_t>(std::abs(v[2]));
 }
 
-// Two sides of a triangle, in numbers over one denominator, which like all these numbers is below 2^62.
-struct SmallSides {
-  std::array<Homogeneous, 3> at;  // the corners
-  std::array<std::int64_t, 3> u;
-  std::array<std::int64_t, 3> v;
-  int width = 0;  // of u and v in bits, together
+}  // namespace
+
+// Two sides of a triangle and the corner where they begin, in numbers over one denominator; all are below 2^62.
+struct PlaneFinder::SmallSides {
+  SmallSides(const std::array<std::array<std::int64_t, 3>, 3>& corners, std::int64_t over)
+      : origin(corners[0]), denominator(over) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      u[i] = corners[1][i] - corners[0][i];
+      v[i] = corners[2][i] - corners[0][i];
+    }
+  }
+
+  std::array<std::int64_t, 3> origin;
+  std::int64_t denominator;
+  std::array<std::int64_t, 3> u{};
+  std::array<std::int64_t, 3> v{};
 };
 
-// Nothing if the numbers are not small.
-std::optional<SmallSides> small_sides(const PointTable& points, const std::array<PointId, 3>& triangle) {
-  SmallSides s;
+namespace {
+
+// The corners of a triangle over one denominator, in numbers below 2^62; nothing if they are not small.
+struct SmallCorners {
+  std::array<std::array<std::int64_t, 3>, 3> at;
+  std::int64_t denominator;
+};
+std::optional<SmallCorners> small_corners(const PointTable& points, const std::array<PointId, 3>& triangle) {
+  std::array<Homogeneous, 3> read;
   for (std::size_t k = 0; k < 3; ++k) {
-    if (!points.small_coordinates(triangle[k], s.at[k])) return std::nullopt;
+    if (!points.small_coordinates(triangle[k], read[k])) return std::nullopt;
   }
-  if (!over_one_denominator<62>(s.at)) return std::nullopt;
-  for (std::size_t i = 0; i < 3; ++i) {
-    s.u[i] = s.at[1][i] - s.at[0][i];
-    s.v[i] = s.at[2][i] - s.at[0][i];
-  }
-  s.width = std::bit_width(bits_of(s.u)) + std::bit_width(bits_of(s.v));
-  return s;
+  if (!over_one_denominator<62>(read)) return std::nullopt;
+  SmallCorners result{{}, read[0][3]};
+  for (std::size_t k = 0; k < 3; ++k) std::copy_n(read[k].begin(), 3, result.at[k].begin());
+  return result;
 }
 
 // x, y, z, w where they are below 2^126.
@@ -147,35 +160,47 @@ PlaneId PlaneFinder::through(PlaneTable& planes, const PointTable& points, const
 // two differences of these numbers, the plane is N.(x D) = N.(a D). The factors of N, which is below 2^63 as the widths
 // of the differences add up to 62 bits at most, are divided out first; what then remains between N D and the offset is
 // a divisor of D. N D is below 2^125, and the offset, a sum of three such products, below 2^127.
-std::optional<PlaneId> PlaneFinder::through_small(PlaneTable& planes, const PointTable& points,
-                                                  const std::array<PointId, 3>& triangle) {
-  const std::optional<SmallSides> sides = small_sides(points, triangle);
-  if (!sides || sides->width > 62) return std::nullopt;
-  const auto& [at, u, v, width] = *sides;
+std::optional<PlaneId> PlaneFinder::through_small(PlaneTable& planes, const SmallSides& sides) {
+  const auto& [origin, denominator, u, v] = sides;
+  if (std::bit_width(bits_of(u)) + std::bit_width(bits_of(v)) > 62) return std::nullopt;
   std::array<std::int64_t, 3> n;
   for (std::size_t i = 0; i < 3; ++i) n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
   const auto size = [&n](std::size_t i) { return static_cast<std::uint64_t>(std::abs(n[i])); };
   auto divisor = static_cast<std::int64_t>(greatest_common_divisor(size(0), size(1)));
-  if (divisor != 1) {
-    divisor = static_cast<std::int64_t>(greatest_common_divisor(static_cast<std::uint64_t>(divisor), size(2)));
+  if (divisor == 0) {
+    divisor = static_cast<std::int64_t>(size(2));
+  } else if (divisor != 1) {
+    // A small one as a rule: after a division it takes few steps.
+    const auto so_far = static_cast<std::uint64_t>(divisor);
+    divisor = static_cast<std::int64_t>(greatest_common_divisor(so_far, size(2) % so_far));
   }
   if (divisor == 0) return PlaneId();
   Int128 offset = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     if (divisor != 1) n[i] /= divisor;
-    offset -= static_cast<Int128>(n[i]) * at[0][i];
+    offset -= static_cast<Int128>(n[i]) * origin[i];
   }
-  const std::int64_t denominator = at[0][3];
   const std::int64_t common = common_divisor(denominator, offset);
-  const Int128 factor = denominator / common;
-  if (common != 1) offset /= common;
+  Int128 factor = denominator;
+  if (common != 1) {
+    factor = denominator / common;
+    offset /= common;
+  }
   return planes.intern_primitive(
       std::array<Int128, 5>{factor * n[0], factor * n[1], factor * n[2], offset});  // no part in R
 }
 
+std::optional<PlaneId> PlaneFinder::through_integers(PlaneTable& planes,
+                                                     const std::array<std::array<std::int64_t, 3>, 3>& corners,
+                                                     std::int64_t denominator) {
+  return kFastPaths ? through_small(planes, {corners, denominator}) : std::nullopt;
+}
+
 PlaneId PlaneFinder::through(PlaneTable& planes, const PointTable& points, PointId o, PointId p, PointId q) {
   if (kFastPaths) {
-    if (const std::optional<PlaneId> plane = through_small(planes, points, {o, p, q})) return *plane;
+    if (const std::optional<SmallCorners> corners = small_corners(points, {o, p, q})) {
+      if (const auto plane = through_small(planes, {corners->at, corners->denominator})) return *plane;
+    }
   }
   if (!kFastPaths || !wide_normal(points, {o, p, q}, n_)) {
     const std::span<Integer, 2> scratch = std::span(n_).first<2>();

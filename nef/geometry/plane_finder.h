@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 
 #include "nef/geometry/plane_table.h"
@@ -23,9 +24,16 @@ class PlaneFinder {
   /// (tests/core/geometry/plane_finder_test).
   PlaneId through(PlaneTable& planes, const PointTable& points, PointId o, PointId p, PointId q);
 
+  /// The same of three points with integers over a common denominator, all below 2^62, as MeshPoints has them: reading
+  /// them from a table, where each has a denominator of its own, is a sixth of what points and planes of a mesh take.
+  /// Nothing where the sides of the triangle are long; then through() finds the plane. O(1).
+  static std::optional<PlaneId> through_integers(PlaneTable& planes,
+                                                 const std::array<std::array<std::int64_t, 3>, 3>& corners,
+                                                 std::int64_t denominator);
+
  private:
-  static std::optional<PlaneId> through_small(PlaneTable& planes, const PointTable& points,
-                                              const std::array<PointId, 3>& triangle);
+  struct SmallSides;
+  static std::optional<PlaneId> through_small(PlaneTable& planes, const SmallSides& sides);
   PlaneId with_normal(PlaneTable& planes, const PointTable& points, PointId o);
 
   Integer3 u_, v_, n_;

@@ -420,14 +420,6 @@ std::size_t MeshPoints::projection_axis(std::uint32_t a, std::uint32_t b, std::u
   return order[0];
 }
 
-int MeshPoints::compare(std::uint32_t a, std::uint32_t b, std::size_t axis) const {
-  const double gap = approximate_[a][axis] - approximate_[b][axis];
-  if (are_ordered_by_doubles()) return (gap > 0) - (gap < 0);
-  // The margins are far above the rounding of this difference.
-  if (filter_ && std::abs(gap) > 4 * margin_[axis]) return gap > 0 ? 1 : -1;
-  return compare_exact(a, b, axis);
-}
-
 int MeshPoints::compare_exact(std::uint32_t a, std::uint32_t b, std::size_t axis) const {
   Integer gap;
   difference(b, a, std::span(&gap, 1), axis);

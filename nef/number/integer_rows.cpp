@@ -104,12 +104,13 @@ std::uint32_t IntegerRows::push(std::span<const Int128> row) {
     end += static_cast<std::size_t>(count);
   }
   begin_row(end);
-  limbs_.insert(limbs_.end(), limbs.begin(), limbs.begin() + static_cast<std::ptrdiff_t>(end));
-  const auto last = sizes.begin() + static_cast<std::ptrdiff_t>(width_);
-  if (is_wide_) {
-    wide_.insert(wide_.end(), sizes.begin(), last);
-  } else {
-    sizes_.insert(sizes_.end(), sizes.begin(), last);
+  for (std::size_t i = 0; i < end; ++i) limbs_.push_back(limbs[i]);  // few: faster than a range
+  for (std::size_t i = 0; i < width_; ++i) {
+    if (is_wide_) {
+      wide_.push_back(sizes[i]);
+    } else {
+      sizes_.push_back(sizes[i]);
+    }
   }
   end_row();
   return index;

@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Each svertex gets a name for its line: the rows of the two smallest planes of facets around it. If fewer than two
-// planes arrive there, it is the number of the line among exact lines (Pluecker coordinates, made unique). A hash table
-// groups svertices by this name. A group of two is an edge; a larger group holds several edges of one line, so it is
-// sorted along the line, where edges that begin and edges that end must alternate. With several threads, names are
-// first distributed by hash, and each share is grouped by itself.
+// planes arrive there, it is the number of the line among exact lines (Pluecker coordinates, made unique). Sorting
+// groups svertices by this name: a counting sort by the smaller plane, and each of its groups by itself. Vertices and
+// planes that are neighbours in space have numbers close to each other, so this runs along memory. A group of two is an
+// edge; a larger group holds several edges of one line, so it is sorted along the line, where edges that begin and
+// edges that end must alternate. With several threads, each share is the names of a range of planes.
 #include "nef/synthesis/edge_linking.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <span>
+#include <tuple>
 #include <unordered_map>
+#include <vector>
 
 #include "nef/base/defect.h"
 #include "nef/base/fast_path.h"
@@ -124,7 +129,7 @@ class Linker {
       }
     });
     name_bare_lines();
-    bucket();
+    pair_all();
   }
 
   void link_loose(std::span<const VertexId> vertices) {
@@ -140,7 +145,7 @@ class Linker {
       }
     }
     name_bare_lines();
-    bucket();
+    pair_all();
   }
 
  private:
@@ -170,52 +175,86 @@ class Linker {
     }
   }
 
-  static std::uint64_t hash(const LineKey& key) {
-    std::uint64_t h = (static_cast<std::uint64_t>(key.first) << 32U | key.second) * 0x9e3779b97f4a7c15ULL;
-    return h ^ (h >> 29U);
+  // A key and its number.
+  struct Named {
+    LineKey key;
+    std::uint32_t i = 0;
+    bool operator<(const Named& other) const {
+      return std::tie(key.first, key.second, i) < std::tie(other.key.first, other.key.second, other.i);
+    }
+  };
+
+  // Of the first plane of a key; that of numbered lines comes after all planes.
+  [[nodiscard]] std::size_t row_of(const LineKey& key) const {
+    return std::min<std::size_t>(key.first, c_.planes.size());
   }
 
-  void bucket() {
+  // Planes by their rows, and numbered lines.
+  void pair_all() {
+    const std::size_t rows = c_.planes.size() + 1;
     if (monitor_.threads() == 1 || keys_.size() < kFewKeys) {
-      std::vector<std::uint32_t> all(keys_.size());
-      std::iota(all.begin(), all.end(), 0U);
-      bucket(all, monitor_);
+      pair_up(
+          keys_.size(), [](std::size_t k) { return static_cast<std::uint32_t>(k); }, {0, rows}, monitor_);
       return;
     }
+    const std::size_t range = (rows + kShares - 1) / kShares;
     const auto shares = shared_out<std::uint32_t>(keys_.size(), monitor_, [&](std::size_t i, const auto& put) {
-      put((hash(keys_[i]) >> 40U) % kShares, static_cast<std::uint32_t>(i));
+      put(row_of(keys_[i]) / range, static_cast<std::uint32_t>(i));
     });
-    parallel_for(kShares, monitor_, [&](std::size_t share, const Monitor& own) { bucket(shares[share], own); });
+    parallel_for(kShares, monitor_, [&](std::size_t s, const Monitor& own) {
+      const std::vector<std::uint32_t>& mine = shares[s];
+      pair_up(
+          mine.size(), [&mine](std::size_t k) { return mine[k]; }, {s * range, std::min((s + 1) * range, rows)}, own);
+    });
+  }
+
+  // Sorts keys, given by their numbers 0 <= k < count, whose rows are in a range.
+  template <typename NumberOf>
+  std::vector<Named> sorted(std::size_t count, const NumberOf& number_of, std::array<std::size_t, 2> rows) const {
+    int shift = 0;  // few keys have groups of several planes
+    while ((rows[1] - rows[0]) >> shift > 2 * count + 16) ++shift;
+    const auto group_of = [&](const LineKey& key) { return (row_of(key) - rows[0]) >> shift; };
+    std::vector<std::uint32_t> begin(((rows[1] - rows[0]) >> shift) + 2, 0);
+    for (std::size_t k = 0; k < count; ++k) ++begin[group_of(keys_[number_of(k)]) + 1];
+    for (std::size_t g = 1; g < begin.size(); ++g) begin[g] += begin[g - 1];
+    std::vector<Named> result(count);
+    for (std::size_t k = 0; k < count; ++k) {
+      const std::uint32_t i = number_of(k);
+      result[begin[group_of(keys_[i])]++] = {keys_[i], i};
+    }
+    constexpr std::size_t kFew = 24;  // sorted faster by insertion
+    std::size_t first = 0;
+    for (std::size_t g = 0; g + 1 < begin.size(); first = begin[g++]) {
+      const std::size_t last = begin[g];
+      if (last - first > kFew) {
+        std::sort(result.begin() + static_cast<std::ptrdiff_t>(first),
+                  result.begin() + static_cast<std::ptrdiff_t>(last));
+        continue;
+      }
+      for (std::size_t k = first + 1; k < last; ++k) {
+        const Named named = result[k];
+        std::size_t at = k;
+        for (; at > first && named < result[at - 1]; --at) result[at] = result[at - 1];
+        result[at] = named;
+      }
+    }
+    return result;
   }
 
   // Pairs up the svertices of some keys: all those of each line among them.
-  void bucket(std::span<const std::uint32_t> mine, const Monitor& own) {
-    std::size_t capacity = 16;
-    while (capacity < mine.size() + mine.size() / 2) capacity *= 2;
-    std::vector<std::uint32_t> slots(capacity, kNone);    // first key of the group in this slot
-    std::vector<std::uint32_t> next(mine.size(), kNone);  // the others, last come first
-    std::vector<std::uint32_t> crowded;                   // heads of groups with more than two
-    std::vector<std::uint32_t> size(mine.size(), 0);
-    for (std::uint32_t i = 0; i < mine.size(); ++i) {
-      const LineKey& key = keys_[mine[i]];
-      std::size_t slot = hash(key) & (capacity - 1);
-      while (slots[slot] != kNone && !(keys_[mine[slots[slot]]] == key)) slot = (slot + 1) & (capacity - 1);
-      if (slots[slot] == kNone) slots[slot] = i;
-      const std::uint32_t head = slots[slot];
-      if (++size[head] == 3) crowded.push_back(head);
-      if (head != i) {
-        next[i] = next[head];
-        next[head] = i;
-      }
-    }
+  template <typename NumberOf>
+  void pair_up(std::size_t count, const NumberOf& number_of, std::array<std::size_t, 2> rows, const Monitor& own) {
+    const std::vector<Named> names = sorted(count, number_of, rows);
     std::vector<HalfedgeId> group;
-    for (std::uint32_t i = 0; i < mine.size(); ++i) {
-      detail::require(size[i] != 1, "an edge has two ends", {{"halfedge", svertex(mine[i])}});
-      if (size[i] == 2) pair(svertex(mine[i]), svertex(mine[next[i]]));
-    }
-    for (const std::uint32_t head : crowded) {
+    for (std::size_t first = 0, last = 0; first < count; first = last) {
+      while (last < count && names[last].key == names[first].key) ++last;
+      detail::require(last - first > 1, "an edge has two ends", {{"halfedge", svertex(names[first].i)}});
+      if (last - first == 2) {
+        pair(svertex(names[first].i), svertex(names[first + 1].i));
+        continue;
+      }
       group.clear();
-      for (std::uint32_t i = head; i != kNone; i = next[i]) group.push_back(svertex(mine[i]));
+      for (std::size_t k = first; k < last; ++k) group.push_back(svertex(names[k].i));
       pair_along_line(group, own);
     }
   }

@@ -7,8 +7,6 @@
 namespace nef {
 namespace {
 
-constexpr std::uint32_t kLeafSize = 4;
-
 // The middle of a box along an axis; infinite sides count as very far, so that they sort to the ends.
 double centre(const Box& box, std::size_t axis) {
   const double low = std::max(box.low[axis], -1e300);

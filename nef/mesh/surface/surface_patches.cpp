@@ -378,11 +378,15 @@ void SurfacePatches::for_each_candidate(const Visit& visit) const {
   std::vector<std::array<std::uint32_t, 2>> pairs;
   pairs.reserve(4 * faces_.patches.size());
   const std::size_t limit = kManyPairs * faces_.patches.size() + 1000;
-  const auto settled = [&](const Patch& p, const Patch& q) {
+  const bool are_triangles = faces_.patches.size() == surface_.triangles.size();  // all of them
+  const auto settled = [&](std::uint32_t i, std::uint32_t j) {
+    if (are_triangles) return stars_.settle(surface_.triangles[i], surface_.triangles[j]);
+    const Patch& p = faces_.patches[i];
+    const Patch& q = faces_.patches[j];
     return p.size() == 1 && q.size() == 1 && stars_.settle(surface_.triangles[p.first], surface_.triangles[q.first]);
   };
   WideStars(*this, faces_).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
-    if (pairs.size() < limit && !settled(faces_.patches[i], faces_.patches[j])) pairs.push_back({i, j});
+    if (pairs.size() < limit && !settled(i, j)) pairs.push_back({i, j});
   });
   if (pairs.size() < limit) {
     for (const auto& [i, j] : pairs) visit_pair(faces_, i, j, ordered);

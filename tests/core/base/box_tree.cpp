@@ -13,13 +13,21 @@ namespace nef::test {
 namespace {
 
 // Small integers, so that many boxes touch or lie in each other; some are flat, some are points, some reach to
-// infinity.
+// infinity, and some gaps between them are smaller than floats tell, or lie beyond all floats.
 std::vector<Box> random_boxes(std::mt19937& random, std::size_t count) {
   std::vector<Box> boxes(count);
   for (Box& box : boxes) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       box.low[axis] = static_cast<int>(random() % 20);
       box.high[axis] = box.low[axis] + static_cast<int>(random() % 4);
+    }
+    if (random() % 4 == 0) box.high[random() % 3] -= 0x1p-40;
+    if (random() % 4 == 0) box.low[random() % 3] += 0x1p-40;
+    for (const double far : {1e39, 1e300}) {
+      if (random() % 16 > 0) continue;
+      const std::size_t axis = random() % 3;
+      box.low[axis] *= far;
+      box.high[axis] *= far;
     }
     if (random() % 16 == 0) box.high[random() % 3] = HUGE_VAL;
     if (random() % 16 == 0) box.low[random() % 3] = -HUGE_VAL;

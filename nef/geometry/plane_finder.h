@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <optional>
 
 #include "nef/geometry/plane_table.h"
@@ -23,13 +22,6 @@ class PlaneFinder {
   /// in machine integers where the numbers are short, which gives the same plane
   /// (tests/core/geometry/plane_finder_test).
   PlaneId through(PlaneTable& planes, const PointTable& points, PointId o, PointId p, PointId q);
-
-  /// The same of three points with integers over a common denominator, all below 2^62, as MeshPoints has them: reading
-  /// them from a table, where each has a denominator of its own, is a sixth of what points and planes of a mesh take.
-  /// Nothing where the sides of the triangle are long; then through() finds the plane. O(1).
-  static std::optional<PlaneId> through_integers(PlaneTable& planes,
-                                                 const std::array<std::array<std::int64_t, 3>, 3>& corners,
-                                                 std::int64_t denominator);
 
  private:
   struct SmallSides;

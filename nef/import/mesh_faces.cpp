@@ -107,11 +107,6 @@ void MeshFaces::add_points(std::span<const std::uint32_t> places) {
   for (const std::uint32_t v : places) {
     point_of_[v] = (known.size() > 0 ? f_.points.push_from(known, PointId{v}) : push_small_point(v)).index();
   }
-  integers_.clear();
-  if (surface_.points.are_integers()) {
-    integers_.reserve(places.size());
-    for (const std::uint32_t v : places) integers_.push_back(surface_.points.integers(v));
-  }
   f_.names.assign(places.begin(), places.end());
 }
 
@@ -160,11 +155,6 @@ void MeshFaces::push(std::span<const std::uint32_t> ring, PlaneId plane) {
 
 // No plane if the points are on one line.
 PlaneId MeshFaces::plane_of_triangle(std::span<const std::uint32_t> t) {
-  if (!integers_.empty()) {
-    const auto plane = PlaneFinder::through_integers(f_.planes, {integers_[t[0]], integers_[t[1]], integers_[t[2]]},
-                                                     surface_.points.denominator());
-    if (plane) return *plane;
-  }
   return finder_.through(f_.planes, f_.points, PointId{t[0]}, PointId{t[1]}, PointId{t[2]});
 }
 

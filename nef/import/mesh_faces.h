@@ -55,11 +55,10 @@ class MeshFaces {
   const MeshSurface& surface_;
   MeshOptions options_;
   Messages* messages_;
-  std::vector<std::uint32_t> order_;                   // one vertex of each place, along a curve
-  std::vector<std::uint32_t> rank_;                    // place -> where it is there
-  std::vector<std::uint32_t> point_of_;                // place -> point of the faces at hand
-  std::vector<std::array<std::int64_t, 3>> integers_;  // of these points, where the surface's are such
-  SolidFaces f_;                                       // these; names are places
+  std::vector<std::uint32_t> order_;     // one vertex of each place, along a curve
+  std::vector<std::uint32_t> rank_;      // place -> where it is there
+  std::vector<std::uint32_t> point_of_;  // place -> point of the faces at hand
+  SolidFaces f_;                         // these; names are places
   bool reverse_ = false;
   std::vector<std::uint32_t> ring_;
   PlaneFinder finder_;

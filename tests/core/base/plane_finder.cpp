@@ -7,10 +7,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <vector>
 
-#include "nef/base/fast_path.h"
 #include "nef/geometry/plane_finder.h"
 #include "nef/geometry/vectors.h"
 
@@ -76,35 +74,6 @@ TEST_CASE("planes of triangles are those of their exact normals") {
     const PlaneId found = finder.through(planes, points, ids[0], ids[1], ids[2]);
     RC_ASSERT(found == expected(planes, triangle));
     RC_ASSERT(finder.through(planes, points, ids[0], ids[2], ids[1]) == (found.valid() ? found.opposite() : found));
-  }));
-}
-
-TEST_CASE("planes of integers over a common denominator are those of the points") {
-  CHECK(rc::check("below 2^62", [] {
-    const int bits = *rc::gen::element(2, 8, 24, 30, 31, 32, 40, 61, 62);
-    const std::int64_t limit = std::int64_t{1} << bits;
-    const std::int64_t side = std::int64_t{1} << *rc::gen::inRange(1, std::min(bits, 32));
-    const std::int64_t denominator =
-        *rc::gen::element<std::int64_t>(1, 2, 1000, 1000000, 6 * 5 * 7 * 11, std::int64_t{1} << 39, 1000000000000);
-    std::array<std::array<std::int64_t, 3>, 3> corners{};
-    PointTable points;
-    std::array<PointId, 3> ids;
-    for (std::size_t k = 0; k < 3; ++k) {
-      Rational3 point;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::int64_t away = k == 0 ? 0 : *rc::gen::inRange<std::int64_t>(-side, side);
-        corners[k][i] = k == 0 ? *rc::gen::inRange<std::int64_t>(-limit + 1, limit) : corners[0][i];
-        if (std::abs(corners[k][i] + away) < limit) corners[k][i] += away;
-        point[i] = Rational(Integer(corners[k][i]), Integer(denominator));
-        point[i].canonicalize();
-      }
-      ids[k] = points.push(point);
-    }
-    PlaneTable planes;
-    const PlaneId wanted = PlaneFinder().through(planes, points, ids[0], ids[1], ids[2]);
-    const auto found = PlaneFinder::through_integers(planes, corners, denominator);
-    RC_ASSERT(!found || *found == wanted);
-    RC_ASSERT(found || !kFastPaths || side > std::int64_t{1} << 29);  // sides of 30 bits have products of 62
   }));
 }
 

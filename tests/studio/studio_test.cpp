@@ -237,8 +237,21 @@ TEST_CASE("Hulls: views switched off, and images of the scene") {
   request["threshold"] = "bright";
   answer(studio, "compute", request, 422);
   request["threshold"] = "";
+  // An image that is edited: the hull of the new one, then again that of the old one.
+  request["residuals"] = false;
+  request["simplify"] = "2";
+  const fs::path image = place.root / "eight_02.png";
+  fs::copy_file(image, fs::path(place.path()) / "kept.png");
+  fs::copy_file(place.root / "eight_03.png", image, fs::copy_options::overwrite_existing);
+  fs::last_write_time(image, fs::file_time_type::clock::now() + std::chrono::seconds(5));
+  const double edited = compute(studio, request).report["result"]["volume_double"];
+  CHECK(edited != volume);
+  fs::copy_file(fs::path(place.path()) / "kept.png", image, fs::copy_options::overwrite_existing);
+  fs::last_write_time(image, fs::file_time_type::clock::now() + std::chrono::seconds(10));
+  CHECK(compute(studio, request).report["result"]["volume_double"].get<double>() == volume);
+  request["simplify"] = "0";
   // An image that is not below the root.
-  fs::rename(place.root / "eight_03.png", place.path() / "eight_03.png");
+  fs::rename(place.root / "eight_03.png", fs::path(place.path()) / "eight_03.png");
   fs::create_symlink("../eight_03.png", place.root / "eight_03.png");
   const Json error = answer(studio, "compute", request, 422);
   CHECK(error["error"].get<std::string>().find("below the folder") != std::string::npos);

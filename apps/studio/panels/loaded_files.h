@@ -4,12 +4,9 @@
 // again.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <list>
-#include <mutex>
 #include <string>
 
+#include "apps/studio/panels/recently_used.h"
 #include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
@@ -23,18 +20,12 @@ class LoadedFiles {
   Polyhedron load(const std::string& path, const Monitor& monitor, Messages& messages);
 
  private:
-  static constexpr std::size_t kMost = 8;  // the last used ones
-
-  struct Entry {
-    std::string path;
-    std::filesystem::file_time_type written;
-    std::uintmax_t bytes = 0;
+  struct Value {
     Polyhedron set;
     Messages messages;
   };
 
-  std::mutex mutex_;
-  std::list<Entry> entries_;  // the last used one first
+  RecentlyUsed<std::string, Value> used_{8};  // by paths
 };
 
 }  // namespace nef::studio

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/studio/panels/silhouette_cache.h"
 
-#include <algorithm>
+#include <optional>
+#include <vector>
 
 #include "apps/visual_hull/formats/read_scene.h"
 #include "apps/visual_hull/scene/images.h"
@@ -14,15 +15,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Traces all outlines. Other formats than JSON name further files, which nobody would have looked at.
+// Traces all outlines; `files` gets the states of all files that are read. Other formats than JSON name further files,
+// which nobody would have looked at.
 visual_hull::Scene traced(const RootFolder& root, const fs::path& file, const OutlineOptions& options,
-                          const Monitor& monitor, Messages& notes) {
+                          const Monitor& monitor, std::vector<FileState>& files, Messages& notes) {
   if (lower_extension(file.string()) != "json")
     throw InputError("the studio reads scenes of visual hulls in JSON only");
+  files.emplace_back(file);
   visual_hull::Scene scene = visual_hull::read_scene(file);
   const fs::path folder = visual_hull::scene_folder(file);
   for (const fs::path& image : visual_hull::images_of(scene, folder, std::nullopt)) {
-    if (!image.empty()) static_cast<void>(root.file(image.lexically_relative(root.path()).generic_string()));
+    if (image.empty()) continue;
+    static_cast<void>(root.file(image.lexically_relative(root.path()).generic_string()));
+    files.emplace_back(image);
   }
   visual_hull::Options how;
   how.monitor = monitor;
@@ -46,27 +51,16 @@ visual_hull::Scene traced(const RootFolder& root, const fs::path& file, const Ou
 
 visual_hull::Scene SilhouetteCache::scene(const RootFolder& root, const std::string& name,
                                           const OutlineOptions& options, const Monitor& monitor, Messages& notes) {
-  Entry entry{.file = root.file(name), .written = {}, .options = options, .scene = {}, .notes = {}};
-  std::error_code error;
-  entry.written = fs::last_write_time(entry.file, error);
-  {
-    const std::lock_guard lock(mutex_);
-    const auto found = std::find_if(entries_.begin(), entries_.end(), [&entry](const Entry& e) {
-      return e.file == entry.file && e.written == entry.written && e.options == entry.options;
-    });
-    if (found != entries_.end()) {
-      entries_.splice(entries_.begin(), entries_, found);
-      notes.insert(notes.end(), found->notes.begin(), found->notes.end());
-      return found->scene;
-    }
+  const Key key{root.file(name), options};
+  std::optional<Value> value = used_.find(key);
+  if (!value) {
+    value.emplace();
+    std::vector<FileState> files;
+    value->scene = traced(root, key.file, options, monitor, files, value->notes);
+    used_.keep(key, std::move(files), *value);
   }
-  entry.scene = traced(root, entry.file, options, monitor, entry.notes);
-  notes.insert(notes.end(), entry.notes.begin(), entry.notes.end());
-  visual_hull::Scene scene = entry.scene;
-  const std::lock_guard lock(mutex_);
-  entries_.push_front(std::move(entry));
-  if (entries_.size() > kMost) entries_.pop_back();
-  return scene;
+  notes.insert(notes.end(), value->notes.begin(), value->notes.end());
+  return value->scene;
 }
 
 }  // namespace nef::studio

@@ -5,10 +5,9 @@
 #pragma once
 
 #include <filesystem>
-#include <list>
-#include <mutex>
 #include <string>
 
+#include "apps/studio/panels/recently_used.h"
 #include "apps/studio/root/root_folder.h"
 #include "apps/visual_hull/scene/scene.h"
 #include "nef/base/monitor.h"
@@ -26,25 +25,25 @@ struct OutlineOptions {
 
 class SilhouetteCache {
  public:
-  /// The scene of a JSON file below the root, each view with polygons. Kept as long as the file stays as it is; images
-  /// are read again only for other options. Throws InputError, also for an image that is not below the root. Any number
-  /// of threads may call it.
+  /// The scene of a JSON file below the root, each view with polygons. Kept as long as the file and
+  /// all its images stay as they are; images are read again for other options. Throws InputError, also for an image
+  /// that is not below the root. Any number of threads may call it.
   visual_hull::Scene scene(const RootFolder& root, const std::string& name, const OutlineOptions& options,
                            const Monitor& monitor, Messages& notes);
 
  private:
-  static constexpr std::size_t kMost = 6;  // the last used ones
-
-  struct Entry {
+  struct Key {
     std::filesystem::path file;
-    std::filesystem::file_time_type written;
     OutlineOptions options;
+
+    friend bool operator==(const Key&, const Key&) = default;
+  };
+  struct Value {
     visual_hull::Scene scene;
     Messages notes;
   };
 
-  std::mutex mutex_;
-  std::list<Entry> entries_;
+  RecentlyUsed<Key, Value> used_{6};
 };
 
 }  // namespace nef::studio

@@ -4,6 +4,7 @@
 import { shellLine, showCommands } from "./commands.js";
 import { approximately } from "./exact.js";
 import { fillNotes, fillTable, measureRows, secondsText } from "./measures.js";
+import { offerScenes } from "./scene_list.js";
 import { ServerError } from "./server.js";
 import { byId } from "../../view/web/panel.js";
 
@@ -52,12 +53,7 @@ export class HullsPanel {
   }
 
   offerFiles(files) {
-    const select = byId("hulls-file");
-    const before = select.value;
-    const scenes = files.map(({ name }) => name).filter((name) => name.endsWith(".json"));
-    select.replaceChildren(...scenes.map((name) => new Option(name, name)));
-    if (scenes.includes(before)) select.value = before;
-    byId("hulls-open").disabled = scenes.length === 0;
+    offerScenes(byId("hulls-file"), byId("hulls-open"), files);
   }
 
   async openFile(file) {

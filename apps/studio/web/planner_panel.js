@@ -4,6 +4,7 @@
 import { shellLine, showCommands } from "./commands.js";
 import { addDecimals, approximately, decimalNear } from "./exact.js";
 import { fillNotes, fillTable, secondsText } from "./measures.js";
+import { offerScenes } from "./scene_list.js";
 import { ask, ServerError } from "./server.js";
 import { byId } from "../../view/web/panel.js";
 
@@ -89,12 +90,7 @@ export class PlannerPanel {
 
   // Names of files that may be scenes.
   offerFiles(files) {
-    const select = byId("planner-file");
-    const before = select.value;
-    const scenes = files.map(({ name }) => name).filter((name) => name.endsWith(".json"));
-    select.replaceChildren(...scenes.map((name) => new Option(name, name)));
-    if (scenes.includes(before)) select.value = before;
-    byId("planner-open").disabled = scenes.length === 0;
+    offerScenes(byId("planner-file"), byId("planner-open"), files);
   }
 
   async openFile(file) {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/studio/panels/file_state.h"
+#include "apps/studio/caches/file_state.h"
 
 namespace nef::studio {
 

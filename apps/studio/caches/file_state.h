@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -36,6 +37,12 @@ class FileState {
   std::filesystem::file_time_type written_;
   std::uintmax_t bytes_ = 0;
 };
+
+/// Of the file of "FILE" or "FILE#PART", a part of it.
+inline FileState state_of_mesh(const std::string& path) {
+  std::error_code error;
+  return FileState(std::filesystem::exists(path, error) ? path : path.substr(0, path.rfind('#')));
+}
 
 /// Whether all files are as they were.
 inline bool still_hold(const std::vector<FileState>& files) {

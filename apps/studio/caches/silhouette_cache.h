@@ -6,8 +6,9 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
-#include "apps/studio/panels/recently_used.h"
+#include "apps/studio/caches/recently_used.h"
 #include "apps/studio/root/root_folder.h"
 #include "apps/visual_hull/scene/scene.h"
 #include "nef/base/monitor.h"
@@ -18,18 +19,27 @@ namespace nef::studio {
 /// How outlines are made.
 struct OutlineOptions {
   std::string threshold;  ///< as parse_threshold reads it; empty: that of the scene
+  std::string mask;       ///< of photographs, as parse_mask_method reads it; empty: images are masks
   double simplify = 0;    ///< pixels by which outlines may move to lose vertices
 
   friend bool operator==(const OutlineOptions&, const OutlineOptions&) = default;
 };
 
+/// A scene whose views have polygons in place of their images, and these.
+struct TracedScene {
+  visual_hull::Scene scene;
+  std::vector<std::filesystem::path> images;         ///< of each view; empty where its file has polygons
+  std::vector<visual_hull::Distortion> distortions;  ///< of the images
+  std::vector<visual_hull::ImageSize> sizes;         ///< of the images
+};
+
 class SilhouetteCache {
  public:
-  /// The scene of a JSON file below the root, each view with polygons. Kept as long as the file and
+  /// The scene of a JSON file below the root. Kept as long as the file and
   /// all its images stay as they are; images are read again for other options. Throws InputError, also for an image
   /// that is not below the root. Any number of threads may call it.
-  visual_hull::Scene scene(const RootFolder& root, const std::string& name, const OutlineOptions& options,
-                           const Monitor& monitor, Messages& notes);
+  TracedScene scene(const RootFolder& root, const std::string& name, const OutlineOptions& options,
+                    const Monitor& monitor, Messages& notes);
 
  private:
   struct Key {
@@ -39,7 +49,7 @@ class SilhouetteCache {
     friend bool operator==(const Key&, const Key&) = default;
   };
   struct Value {
-    visual_hull::Scene scene;
+    TracedScene scene;
     Messages notes;
   };
 

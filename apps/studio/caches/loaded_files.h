@@ -5,19 +5,21 @@
 #pragma once
 
 #include <string>
+#include <utility>
 
-#include "apps/studio/panels/recently_used.h"
+#include "apps/studio/caches/recently_used.h"
 #include "nef/base/monitor.h"
 #include "nef/construct/construct.h"
+#include "nef/construct/crossings.h"
 #include "nef/polyhedron.h"
 
 namespace nef::studio {
 
 class LoadedFiles {
  public:
-  /// The set of a file, read as `nef` reads it (--crossings union). `messages` gets what was done to it, whether it is
+  /// The set of a file, read as `nef` reads it. `messages` gets what was done to it, whether it is
   /// read now or was before. Throws InputError. Any number of threads may call it.
-  Polyhedron load(const std::string& path, const Monitor& monitor, Messages& messages);
+  Polyhedron load(const std::string& path, Crossings crossings, const Monitor& monitor, Messages& messages);
 
  private:
   struct Value {
@@ -25,7 +27,7 @@ class LoadedFiles {
     Messages messages;
   };
 
-  RecentlyUsed<std::string, Value> used_{8};  // by paths
+  RecentlyUsed<std::pair<std::string, Crossings>, Value> used_{8};
 };
 
 }  // namespace nef::studio

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// nef-studio ROOT PORT THREADS SECONDS MEGABYTES BROWSER FILES...: the server, which `nef studio` starts with what its
-// options say (apps/nef/command/views/command_studio.cpp). A program of its own, so that `nef` does not load the
-// libraries of servers and planners. Ends with SIGINT, SIGTERM and SIGHUP, which a page can cause, too.
+// nef-studio ROOT PORT THREADS SECONDS MEGABYTES BROWSER FILES...: the server; nef-studio --run OUTPUT ROOT THREADS
+// SECONDS MEGABYTES FILE: a state computed without one. Both are what `nef studio` starts with what its options say
+// (apps/nef/command/views/command_studio.cpp). A program of its own, so that `nef` does not load the libraries of
+// servers and planners. Ends with SIGINT, SIGTERM and SIGHUP, which a page can cause, too.
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
@@ -18,6 +19,7 @@
 
 #include "apps/program/run_program.h"
 #include "apps/program/stack.h"
+#include "apps/studio/run_state.h"
 #include "apps/studio/server/admission.h"
 #include "apps/studio/studio.h"
 #include "apps/studio/studio_page.h"
@@ -78,6 +80,18 @@ class Redirection {
   std::string path_;
 };
 
+int run(std::span<char*> arguments) {
+  if (arguments.size() != 8) throw InputError("nef-studio is started by nef studio (nef studio --help)");
+  studio::StudioOptions options;
+  options.root = arguments[3];
+  options.threads = static_cast<unsigned>(number(arguments[4]));
+  options.limits.seconds = static_cast<double>(number(arguments[5]));
+  options.limits.bytes = number(arguments[6]) << 20U;
+  options.files = {arguments[7]};
+  studio::run_state(options, arguments[2], std::cout);
+  return 0;
+}
+
 int serve(std::span<char*> arguments) {
   if (arguments.size() < 7) throw InputError("nef-studio is started by nef studio (nef studio --help)");
   studio::StudioOptions options;
@@ -124,7 +138,9 @@ int main(int argc, char** argv) {
   nef::keep_freed_memory();
   try {
     nef::require_stack();
-    return serve({argv, static_cast<std::size_t>(argc)});
+    const std::span<char*> arguments(argv, static_cast<std::size_t>(argc));
+    const bool runs = argc > 1 && std::string_view(argv[1]) == "--run";
+    return runs ? run(arguments) : serve(arguments);
   } catch (const std::exception& error) {
     std::cerr << "nef studio: " << nef::one_line(error.what()) << '\n';
     return 2;

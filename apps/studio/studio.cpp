@@ -7,12 +7,14 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
+#include <set>
 
 #include "apps/program/reports/run_report.h"
 #include "apps/studio/panels/expression_field.h"
+#include "apps/studio/panels/panels.h"
 #include "apps/studio/studio_page.h"
 #include "apps/view/page.h"
+#include "apps/view/page/item_details.h"
 #include "nef/base/error.h"
 #include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
@@ -23,13 +25,6 @@ namespace {
 
 constexpr std::size_t kMostText = std::size_t{8} << 20U;  // bytes of a text that pages read or write
 constexpr std::size_t kMostFilesListed = 2000;
-constexpr std::size_t kExactTextOfLayer = std::size_t{4} << 20U;
-
-const std::map<std::string, Panel>& panels() {
-  static const std::map<std::string, Panel> kPanels{
-      {"sets", sets_panel}, {"sums", sums_panel}, {"hulls", hulls_panel}, {"planner", planner_panel}};
-  return kPanels;
-}
 
 WebReply json_reply(const Json& json, int status = 200) {
   return {
@@ -60,6 +55,17 @@ bool is_text_file(const std::string& name) {
 bool flag(const Json& request, const char* name) {
   const auto found = request.find(name);
   return found != request.end() && found->is_boolean() && found->get<bool>();
+}
+
+// The pieces that the page has, by their numbers.
+std::set<std::uint64_t> known_pieces(const Json& request) {
+  std::set<std::uint64_t> known;
+  const auto list = request.find("has");
+  if (list == request.end() || !list->is_array()) return known;
+  for (const Json& id : *list) {
+    if (id.is_number_unsigned()) known.insert(id.get<std::uint64_t>());
+  }
+  return known;
 }
 
 void append_length(std::string& bytes, std::size_t length) {
@@ -122,6 +128,7 @@ WebReply Studio::call(const std::string& name, const std::string& body) {
   if (name == "read") return json_reply(read(request));
   if (name == "write") return json_reply(write(request));
   if (name == "state") return json_reply(keep_state(request));
+  if (name == "item") return json_reply(item(request));
   if (name == "export") return json_reply(export_set(request));
   if (name == "cancel") {
     pages_.cancel(page_of(request));
@@ -213,14 +220,14 @@ Json Studio::export_set(const Json& request) {
   if (!flag(request, "overwrite") && std::filesystem::exists(target, error)) {
     throw InputError(name + ": this file is there already");
   }
-  const Polyhedron set = pages_.set(page, text_of(request, "set"));
+  const KeptSet set = pages_.set(page, text_of(request, "set"));
   Messages notes;
   pages_.compute(page, [&](const Monitor& monitor) {
     PolyhedronWriteOptions options;
     options.exact = flag(request, "exact");
     options.manifold = flag(request, "manifold");
     options.monitor = monitor;
-    write_polyhedron(target.string(), set, options, &notes);
+    write_polyhedron(target.string(), set.whole(monitor), options, &notes);
     return std::nullopt;
   });
   for (std::string& note : notes) {
@@ -232,23 +239,57 @@ Json Studio::export_set(const Json& request) {
 WebReply Studio::compute(const Json& request) {
   const auto panel = panels().find(text_of(request, "panel"));
   if (panel == panels().end()) throw InputError("there is no such panel");
+  const std::string page = page_of(request);
+  const std::set<std::uint64_t> known = known_pieces(request);
   PanelResult result;
   std::string scene;
-  pages_.compute(page_of(request), [&](const Monitor& monitor) -> std::optional<Sets> {
-    result = panel->second(request, {root_, loaded_, silhouettes_, scenes_, monitor});
+  std::string pieces;
+  pages_.compute(page, [&](const Monitor& monitor) -> std::optional<Sets> {
+    result = panel->second(request, {root_, loaded_, expressions_, tiles_, silhouettes_, scenes_, monitor});
     view::PageOptions options;
     options.title = panel->first;
-    options.exact_text_limit = kExactTextOfLayer;
+    options.details = false;
     scene = view::page_scene(result.layers, options);
+    std::vector<Polyhedron> sources;
+    for (const view::Layer& layer : result.layers) sources.push_back(layer.scene.source);
+    result.report["pieces"] = Json::array();
+    for (const Piece& piece : result.pieces) {
+      const bool is_known = known.contains(piece.id);
+      result.report["pieces"].push_back({piece.id, is_known ? 0 : piece.scene->size()});
+      if (!is_known) pieces += *piece.scene;
+      sources.push_back(piece.source);
+    }
+    result.report["scene"] = ++last_scene_;
+    pages_.keep_drawn(page, result.report["scene"].get<std::uint64_t>(), std::move(sources));
     return result.sets;
   });
   const std::string report = result.report.dump(-1, ' ', false, Json::error_handler_t::replace);
   WebReply reply;
   reply.type = "application/octet-stream";
+  reply.body.reserve(8 + report.size() + scene.size() + pieces.size());
   append_length(reply.body, report.size());
+  append_length(reply.body, scene.size());
   reply.body += report;
   reply.body += scene;
+  reply.body += pieces;
   return reply;
+}
+
+Json Studio::item(const Json& request) const {
+  const auto index_of = [](const Json& value) {
+    if (!value.is_number_unsigned()) throw InputError("an item is named by its number");
+    return value.get<std::uint32_t>();
+  };
+  const Json& layer = request.value("layer", Json());
+  const Json& scene = request.value("scene", Json());
+  const Polyhedron source = pages_.drawn(page_of(request), index_of(scene), index_of(layer));
+  std::vector<std::uint32_t> vertices;
+  const Json wanted = request.value("vertices", Json::array());
+  if (!wanted.is_array() || wanted.size() > 2) throw InputError("an item has at most two vertices");
+  for (const Json& vertex : wanted) vertices.push_back(index_of(vertex));
+  std::optional<std::uint32_t> facet;
+  if (const Json value = request.value("facet", Json()); !value.is_null()) facet = index_of(value);
+  return Json(view::item_details(source, vertices, facet));
 }
 
 }  // namespace nef::studio

@@ -9,9 +9,11 @@
 //   /api/write     a text file, whole or not at all
 //   /api/upload    a file that was dropped on the page: its name, a line break, its bytes
 //   /api/state     the state of the page, which its file keeps
-//   /api/compute   a panel's computation: the length of the report (32 bits, little-endian), the report, and the scene
-//   as
-//                  pages have it (page_scene in apps/view/page.h)
+//   /api/compute   a panel's computation: the lengths of the report and of the scene (32 bits each, little-endian), the
+//                  report, the scene as pages have it (page_scene in apps/view/page.h, without details), and the scenes
+//                  of pieces: "pieces" of the report are their numbers and lengths, 0 for those that the page has
+//                  ("has" of the request)
+//   /api/item      details of an item of the page's last scene (apps/view/page/item_details.h)
 //   /api/progress  how far that has come; /api/cancel stops it
 //   /api/export    a set of the last computation, to a file
 //   /api/stop      ends the server
@@ -19,6 +21,7 @@
 // What cannot be done is an answer of status 422 with {"error": a line, "field", "offset"}.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <mutex>
@@ -64,6 +67,7 @@ class Studio {
   Json keep_state(const Json& request);
   Json export_set(const Json& request);
   WebReply compute(const Json& request);
+  Json item(const Json& request) const;
 
   RootFolder root_;
   std::vector<std::string> files_;
@@ -71,8 +75,12 @@ class Studio {
   std::function<void()> stop_;
   PageTable pages_;
   LoadedFiles loaded_;
+  ExpressionCache expressions_;
+  PieceNumbers piece_numbers_;
+  TilePieces tiles_{piece_numbers_};
   SilhouetteCache silhouettes_;
-  SceneCache scenes_;
+  SceneCache scenes_{piece_numbers_};
+  std::atomic<std::uint64_t> last_scene_ = 0;
   mutable std::mutex state_mutex_;
   std::uint64_t revision_ = 0;  // of the state; a page that has not seen the last one does not overwrite it
 };

@@ -15,6 +15,9 @@ struct PageOptions {
   std::string title = "nef view";
   /// Exact coordinates and planes of a layer are left out (and the page says so) if they need more bytes than this.
   std::size_t exact_text_limit = std::size_t{48} << 20U;
+  /// Sphere maps and exact texts. Scenes without them are a fraction as large; the page must get them item by item
+  /// (page/item_details.h).
+  bool details = true;
 };
 
 /// Writes the page, viewer and scene inside. Throws UnsupportedError if the viewer bundle was not built (npm was

@@ -19,13 +19,15 @@ namespace {
 
 constexpr std::uint32_t kUnused = 0xffffffffU;
 
-// Adds the items of one complex, without those of an infimaximal box, to an empty scene.
+// Adds the items of one complex, without those of an infimaximal box and without those that only border on kOutside, to
+// an empty scene.
 class SceneBuilder {
  public:
   SceneBuilder(const Complex& complex, Scene& scene, const Monitor& monitor)
       : complex_(complex), scene_(scene), monitor_(monitor) {}
 
   void run() {
+    find_walls();
     add_volumes();
     add_vertices();
     add_edges();
@@ -33,6 +35,35 @@ class SceneBuilder {
   }
 
  private:
+  [[nodiscard]] bool is_beyond(VolumeId volume) const { return complex_.volumes[volume].mark == kOutside; }
+
+  // Where kOutside borders on the rest, which is nowhere else than at infinity unless the set is one in a region: its
+  // edges, and the facets that are only its end, since their marks are those behind them.
+  void find_walls() {
+    in_wall_.assign(complex_.svertex_count(), false);
+    for (const FacetId f : complex_.facets.ids()) {
+      const Facet& facet = complex_.facets[f];
+      if (!is_beyond(facet.volume_above) && !is_beyond(facet.volume_below)) continue;
+      for (const SHalfedgeId corner : complex_.corners_of(facet)) in_wall_[complex_.corner_halfedge(corner)] = true;
+    }
+  }
+
+  [[nodiscard]] bool is_end(const Facet& facet) const {
+    if (is_beyond(facet.volume_above)) return complex_.volumes[facet.volume_below].mark == facet.mark;
+    return is_beyond(facet.volume_below) && complex_.volumes[facet.volume_above].mark == facet.mark;
+  }
+
+  // The scene's volume on a side of a facet. Of what lies beyond a wall that is drawn no more is known here than that
+  // the wall ends the set, so it has the mark of the wall; the tile there tells the rest.
+  std::uint32_t side_of(VolumeId volume, const Facet& facet) {
+    if (!is_beyond(volume)) return volume.index();
+    for (auto v = static_cast<std::uint32_t>(complex_.volume_count()); v < scene_.volumes.size(); ++v) {
+      if (scene_.volumes[v].mark == facet.mark) return v;
+    }
+    scene_.volumes.push_back({kArtificial, facet.mark, false});
+    return static_cast<std::uint32_t>(scene_.volumes.size() - 1);
+  }
+
   void add_volumes() {
     for (const VolumeId v : complex_.volumes.ids()) {
       const LabelId mark = complex_.volumes[v].mark;
@@ -49,14 +80,16 @@ class SceneBuilder {
       exact_.push_back(complex_.points.rational(point_of(v)));
       Point position;
       for (std::size_t i = 0; i < 3; ++i) position[i] = nearest_double(exact_.back()[i]);
-      scene_.vertices.push_back({position, v.index(), map.mark, Origin::kOwn,
+      const bool wall =
+          std::any_of(map.sfaces.begin(), map.sfaces.end(), [](const SFace& sface) { return sface.mark == kOutside; });
+      scene_.vertices.push_back({position, v.index(), map.mark, wall ? Origin::kBox : Origin::kOwn,
                                  map.svertices.empty() && map.shalfedges.empty() && map.sloops.empty()});
     }
   }
 
   void add_edges() {
     for (const HalfedgeId h : complex_.halfedge_ids()) {
-      if (h > complex_.twin[h]) continue;
+      if (h > complex_.twin[h] || in_wall_[h] || in_wall_[complex_.twin[h]]) continue;
       const std::uint32_t from = number_[complex_.source(h)];
       const std::uint32_t to = number_[complex_.target(h)];
       if (from == kUnused || to == kUnused) continue;
@@ -84,7 +117,7 @@ class SceneBuilder {
     for (const FacetId f : complex_.facets.ids()) {
       const Facet& facet = complex_.facets[f];
       const std::vector<std::vector<std::uint32_t>> rings = rings_of(facet);
-      if (rings.empty()) continue;
+      if (rings.empty() || is_end(facet)) continue;
       const auto first = static_cast<std::uint32_t>(scene_.triangles.size());
       if (rings.size() == 1 && rings[0].size() == 3) {
         scene_.triangles.push_back({rings[0][0], rings[0][1], rings[0][2]});
@@ -94,8 +127,8 @@ class SceneBuilder {
         NEF_ASSERT(done);
       }
       const auto count = static_cast<std::uint32_t>(scene_.triangles.size()) - first;
-      scene_.facets.push_back(
-          {first, count, f.index(), facet.mark, Origin::kOwn, facet.volume_above.index(), facet.volume_below.index()});
+      scene_.facets.push_back({first, count, f.index(), facet.mark, Origin::kOwn, side_of(facet.volume_above, facet),
+                               side_of(facet.volume_below, facet)});
       for (const auto& ring : rings) {
         scene_.facet_vertices.insert(scene_.facet_vertices.end(), ring.begin(), ring.end());
       }
@@ -109,6 +142,7 @@ class SceneBuilder {
   const Complex& complex_;
   Scene& scene_;
   Monitor monitor_;
+  IndexedVector<HalfedgeId, bool> in_wall_;        // one of the two of an edge
   IndexedVector<VertexId, std::uint32_t> number_;  // scene vertex of each vertex
   std::vector<Rational3> exact_;                   // point of each scene vertex
 };
@@ -192,6 +226,13 @@ Scene build_scene(const Polyhedron& polyhedron, const SceneOptions& options, con
       forget_items(scene);
     }
   }
+  return scene;
+}
+
+Scene build_tile_scene(const Polyhedron& tile, const Monitor& monitor) {
+  Scene scene;
+  scene.source = tile;
+  SceneBuilder(tile.complex(), scene, monitor).run();
   return scene;
 }
 

@@ -23,7 +23,7 @@ inline constexpr std::uint32_t kArtificial = 0xffffffffU;
 /// How an item came into the scene.
 enum class Origin : std::uint8_t {
   kOwn,      ///< an item of the polyhedron (or a part of it)
-  kBox,      ///< lies on the visible box, where an unbounded part is cut off
+  kBox,      ///< lies on the visible box, where an unbounded part is cut off, or in the wall of a tile
   kSection,  ///< lies on the section plane
 };
 
@@ -98,6 +98,11 @@ struct Scene {
 /// are cut off at a visible box (and sections are made) by Boolean operations, so what is drawn is the exact
 /// intersection. O(n) plus the triangulation for bounded sets without a section.
 Scene build_scene(const Polyhedron& polyhedron, const SceneOptions& options = {}, const Monitor& monitor = {});
+
+/// What there is to see of the part of a bounded set in a closed region, beyond which its marks are kOutside: a tile of
+/// a TiledPolyhedron. The scenes of all tiles together show the set, but edges that lie in walls between them: facets
+/// that walls cut are drawn in parts, walls themselves are not. Vertices in walls are of Origin::kBox. O(n).
+Scene build_tile_scene(const Polyhedron& tile, const Monitor& monitor = {});
 
 /// A box around all finite vertices of all sets, and around the places where their unbounded planes and lines are, with
 /// a margin of about a third; [-1,1]^3 for sets without any. Sets that are shown together should be cut at one box.

@@ -33,11 +33,13 @@ class Studio:
         parts = urllib.parse.urlsplit(self.process.stdout.readline().strip())
         self.port, self.token = parts.port, urllib.parse.parse_qs(parts.query)["token"][0]
 
+        self.pieces = []
+
     def compute(self, request):
         """(seconds, seconds of the computation, bytes)"""
         begin = time.perf_counter()
         connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=600)
-        connection.request("POST", "/api/compute", json.dumps({"page": "bench", **request}), {"X-Nef-Token": self.token})
+        connection.request("POST", "/api/compute", json.dumps({"page": "bench", "has": self.pieces, **request}), {"X-Nef-Token": self.token})
         reply = connection.getresponse()
         body = reply.read()
         took = time.perf_counter() - begin
@@ -45,9 +47,12 @@ class Studio:
         if reply.status != 200:
             raise RuntimeError(body.decode())
         length = struct.unpack("<I", body[:4])[0]
-        return took, json.loads(body[4:4 + length])["op_s"], len(body)
+        report = json.loads(body[8:8 + length])
+        self.pieces = [number for number, _ in report["pieces"]]  # a page keeps them
+        return took, report["op_s"], len(body)
 
     def end(self):
+        """Ends the server."""
         self.process.terminate()
         self.process.wait()
 
@@ -67,7 +72,7 @@ def many_obstacles(_root, _programs):
     scene = {"robot": "box(0,0,0, 1/2,1/2,1/2)", "obstacles": boxes, "box": [[0, 0, 0], [42, 42, 42]], "start": [0, 0, 0],
              "goal": [41, 41, 41]}
     return lambda i: {"panel": "planner", "scene": json.dumps(scene), "folder": "", "start": None, "goal": None,
-                      "moves": {"100": ["0", f"0.{i + 10}", "0"]}}
+                      "moves": {"100": ["0", f"0.{i + 10}", "0"]}, "dragged": True}
 
 
 def views(root, _programs):

@@ -64,6 +64,7 @@ NEF = {
     "--section": "nef.notebook.picture(section)",
     "--size": "nef.notebook.picture(width)",
     "--root": STUDIO,
+    "--run": STUDIO,
     "--port": STUDIO,
     "--no-browser": STUDIO,
     "--time": STUDIO,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/program/expression/expression.h"
+#include "apps/program/expression/expression_steps.h"
 #include "apps/program/numbers.h"
 #include "nef/polyhedron.h"
 
@@ -142,6 +143,34 @@ TEST_CASE("variables are sets or numbers") {
   CHECK(refusal("a = point(0,0,0) a") == "column 18: expected ';' after the value of 'a', found 'a'");
   CHECK(refusal("box = 3; box(0,0,0,box,1,1)") == "column 1: 'box' is a reserved word; choose another name");
   CHECK(refusal("a = b; a") == "column 5: there is no set or function 'b'");
+}
+
+TEST_CASE("a text in steps is the same set, and its sets are known again") {
+  const std::string definitions = "h = 3; a = box(0,0,0, h,3,3); b = translate(a, 1,1,1); ";
+  for (const std::string& text :
+       {std::string("box(0,0,0, 2,2,2) - box(1,1,1, 3,3,3) + point(9,9,9) ^ a * b"), std::string("a - b"),
+        std::string("difference(a, b)"), std::string("a * b * halfspace(1,0,0,-2)"), std::string("!a"),
+        std::string("union()"), std::string("a")}) {
+    ExpressionSteps steps(definitions + text);
+    std::vector<Polyhedron> sets;
+    for (std::size_t i = 0; i < steps.size(); ++i) sets.push_back(steps.set(i));
+    CHECK(equal(steps.combined(sets), eval(definitions + text)));
+    Polyhedron by_steps = sets[0];
+    for (std::size_t i = 1; i < sets.size(); ++i) {
+      StepSequence step(by_steps, 1, TileUse::kNever);
+      step.apply(steps.operation(i), sets[i]);
+      by_steps = step.result();
+    }
+    CHECK(equal(by_steps, eval(definitions + text)));
+  }
+  // Alike wherever they stand, and under whatever names their numbers have.
+  const ExpressionSteps one("n = 2; s = box(0,0,0, n,1,1); s - point(0,0,0)");
+  CHECK(one.key(1) == ExpressionSteps("everything * point(0,0,0)").key(1));
+  CHECK(one.key(0) == ExpressionSteps("m = 1; s = box(0,0,0, m + 1,1,1); s * s").key(1));
+  CHECK(one.key(0) != ExpressionSteps("n = 3; s = box(0,0,0, n,1,1); s - point(0,0,0)").key(0));
+  CHECK(one.key(0) != one.key(1));
+  CHECK(ExpressionSteps("file(\"ab\")").key(0) != ExpressionSteps("file(\"a\")").key(0));
+  CHECK(ExpressionSteps("s = file(\"x\"); s + file(\"y\")").files(0) == std::vector<std::string>{"x"});
 }
 
 TEST_CASE("round shapes, hulls of sets, Minkowski sums") {

@@ -32,14 +32,27 @@ TEST_CASE("The sets of a page's last computation stay, also if the next one fail
   PageTable pages(1, {});
   CHECK_THROWS_AS(pages.set("a", "result"), InputError);
   pages.compute("a", [](const Monitor&) { return box(); });
-  CHECK(equal(pages.set("a", "result"), make_box({0, 0, 0}, {1, 1, 1})));
+  CHECK(equal(pages.set("a", "result").whole(), make_box({0, 0, 0}, {1, 1, 1})));
   CHECK_THROWS_AS(pages.set("b", "result"), InputError);
   CHECK_THROWS_AS(pages.compute("a", [](const Monitor&) -> std::optional<Sets> { throw InputError("no"); }),
                   InputError);
   pages.compute("a", [](const Monitor&) { return std::nullopt; });
-  CHECK(equal(pages.set("a", "result"), make_box({0, 0, 0}, {1, 1, 1})));
+  CHECK(equal(pages.set("a", "result").whole(), make_box({0, 0, 0}, {1, 1, 1})));
+  pages.compute("a", [](const Monitor&) { return Sets{{"tiled", TiledPolyhedron(make_box({0, 0, 0}, {1, 1, 1}))}}; });
+  CHECK(equal(pages.set("a", "tiled").whole(), make_box({0, 0, 0}, {1, 1, 1})));
   pages.compute("a", [](const Monitor&) { return Sets{{"other", Polyhedron()}}; });
   CHECK_THROWS_AS(pages.set("a", "result"), InputError);
+}
+
+TEST_CASE("What the layers of the last scene were drawn from is kept, and of no other scene") {
+  PageTable pages(1, {});
+  pages.keep_drawn("a", 7, {make_box({0, 0, 0}, {1, 1, 1}), Polyhedron()});
+  CHECK(pages.drawn("a", 7, 0).complex().vertex_count() == 8);
+  CHECK_THROWS_AS(pages.drawn("a", 7, 2), InputError);
+  CHECK_THROWS_AS(pages.drawn("a", 6, 0), InputError);
+  CHECK_THROWS_AS(pages.drawn("b", 7, 0), InputError);
+  pages.keep_drawn("a", 8, {Polyhedron()});
+  CHECK_THROWS_AS(pages.drawn("a", 7, 0), InputError);
 }
 
 TEST_CASE("A computation tells how far it is, and is cancelled") {
@@ -81,7 +94,7 @@ TEST_CASE("A newer computation of a page takes the place of the older ones while
   first.join();
   CHECK(cancelled == 1);
   CHECK(pages.progress("b"));
-  CHECK(equal(pages.set("a", "result"), make_box({0, 0, 0}, {1, 1, 1})));
+  CHECK(equal(pages.set("a", "result").whole(), make_box({0, 0, 0}, {1, 1, 1})));
   pages.close();
   other.join();
   CHECK(cancelled == 2);

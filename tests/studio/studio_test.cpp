@@ -5,10 +5,14 @@
 
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <cmath>
 #include <fstream>
+#include <sstream>
 #include <thread>
 
+#include "apps/studio/run_state.h"
 #include "nef/construct/construct.h"
+#include "nef/construct/round_shapes.h"
 #include "nef/io/polyhedron_file.h"
 #include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
@@ -42,6 +46,7 @@ Json answer(Studio& studio, const std::string& name, Json request, int status = 
 struct Computed {
   Json report;
   Json scene;
+  std::size_t bytes = 0;
 };
 std::size_t length_at(const std::string& bytes, std::size_t at) {
   std::size_t length = 0;
@@ -54,8 +59,9 @@ Computed compute(Studio& studio, const Json& request) {
   INFO(reply.body.substr(0, 300));
   REQUIRE(reply.status == 200);
   const std::size_t report = length_at(reply.body, 0);
-  const std::size_t scene = length_at(reply.body, 4 + report);
-  return {Json::parse(reply.body.substr(4, report)), Json::parse(reply.body.substr(8 + report, scene))};
+  const std::size_t scene = length_at(reply.body, 8 + report);
+  return {Json::parse(reply.body.substr(8, report)), Json::parse(reply.body.substr(12 + report, scene)),
+          reply.body.size()};
 }
 
 TEST_CASE("Sets: an expression gives measures, a scene and files") {
@@ -76,6 +82,63 @@ TEST_CASE("Sets: an expression gives measures, a scene and files") {
   answer(studio, "export", {{"set", "none"}, {"name", "new.off"}}, 422);
   answer(studio, "export", {{"set", "result"}, {"name", "new.exe"}}, 422);
   CHECK(!fs::exists(place.root / "new.exe"));
+}
+
+TEST_CASE("Sets: a large one is changed in tiles, of which a page gets those that have changed") {
+  const Place place;
+  Studio studio({.root = place.root}, [] {});
+  const auto text = [](int i) {
+    return "s = sphere(10, 100); s - translate(box(-1,-1,-1, 1,1,1), 10,0," + std::to_string(i) + "/10)";
+  };
+  Json request{{"page", "a"}, {"panel", "sets"}, {"text", text(0)}, {"has", Json::array()}};
+  const Computed first = compute(studio, request);
+  const Json pieces = first.report["pieces"];
+  REQUIRE(pieces.size() > 10);
+  for (const Json& piece : pieces) {
+    CHECK(piece[1].get<std::size_t>() > 0);
+    request["has"].push_back(piece[0]);
+  }
+  for (int i = 1; i < 4; ++i) {
+    request["text"] = text(i);
+    const Computed next = compute(studio, request);
+    std::size_t sent = 0;
+    for (const Json& piece : next.report["pieces"]) sent += piece[1] == 0 ? 0 : 1;
+    CHECK(sent > 0);
+    CHECK(3 * sent < pieces.size());
+    CHECK(3 * next.bytes < first.bytes);
+    // Without tiles.
+    const Polyhedron whole =
+        subtract(make_sphere(10, 100), make_box({9, -1, Rational(i, 10) - 1}, {11, 1, Rational(i, 10) + 1}));
+    const Json measures = next.report["result"];
+    const double exact = nearest_double(*volume(whole));
+    CHECK(std::fabs(measures["volume_double"].get<double>() - exact) <= measures["volume_error"].get<double>() + 1e-12);
+    if (i < 3) continue;
+    answer(studio, "export", {{"set", "result"}, {"name", "tiles.nef"}});
+    CHECK(equal(read_polyhedron((place.root / "tiles.nef").string()), whole));
+  }
+  // What would be unbounded is not in tiles.
+  request["text"] = "sphere(10, 100) + halfspace(0,0,1,20)";
+  CHECK(compute(studio, request).report["pieces"].empty());
+}
+
+TEST_CASE("Details of an item of the last scene") {
+  const Place place;
+  Studio studio({.root = place.root}, [] {});
+  const Json request{{"page", "a"}, {"panel", "sets"}, {"text", "interior(box(0,0,0, 1,1,1/3))"}};
+  const Json scene = compute(studio, request).report["scene"];
+  const Json vertex = answer(studio, "item", {{"scene", scene}, {"layer", 0}, {"vertices", {7}}});
+  CHECK(vertex["points"] == Json({"1 1 1/3"}));
+  CHECK(vertex["spheres"]["begin"] == Json({0, 0, 0, 0, 3, 3, 0, 2}));
+  CHECK(vertex["spheres"]["dots"].size() == 6);
+  const Json facet = answer(studio, "item", {{"scene", scene}, {"layer", 0}, {"facet", 0}});
+  CHECK(facet["plane"].get<std::string>().find(' ') != std::string::npos);
+  CHECK(answer(studio, "item", {{"scene", scene}, {"layer", 0}, {"vertices", {0, 1}}})["points"].size() == 2);
+  answer(studio, "item", {{"scene", scene}, {"layer", 0}, {"vertices", {8}}}, 422);
+  answer(studio, "item", {{"scene", scene}, {"layer", 0}, {"facet", 6}}, 422);
+  answer(studio, "item", {{"scene", scene}, {"layer", 1}, {"facet", 0}}, 422);
+  answer(studio, "item", {{"scene", 77}, {"layer", 0}, {"facet", 0}}, 422);
+  answer(studio, "item", {{"layer", 0}, {"facet", 0}}, 422);
+  answer(studio, "item", {{"scene", scene}, {"layer", 0}, {"vertices", {0, 1, 2}}}, 422);
 }
 
 TEST_CASE("Sets: what is wrong has its place") {
@@ -193,11 +256,15 @@ TEST_CASE("Planner: obstacles that rest are kept, and files are read again when 
     }
     return std::size_t{0};
   };
-  CHECK(facets_of(compute(studio, request).scene, "obstacles") == 6 * 70);
+  CHECK(compute(studio, request).report["pieces"].size() == 1);
   for (const char* y : {"5", "0", "-5"}) {
     request["moves"] = {{"7", {"0", y, "0"}}};
     const Computed moved = compute(studio, request);
-    CHECK(facets_of(moved.scene, "obstacles") == 6 * 69);
+    CHECK(facets_of(moved.scene, "obstacles") == 0);  // a piece
+    REQUIRE(moved.report["pieces"].size() == 1);
+    CHECK(moved.report["pieces"][0][0].get<int>() > 0);
+    CHECK((moved.report["pieces"][0][1] == 0) == (request["has"] == Json({moved.report["pieces"][0][0]})));
+    request["has"] = {moved.report["pieces"][0][0]};
     CHECK(facets_of(moved.scene, "obstacle 7") == 6);
     CHECK(moved.report["answer"]["status"] == "path");
   }
@@ -222,10 +289,29 @@ TEST_CASE("Hulls: views switched off, and images of the scene") {
   CHECK(all.report["views"][3]["residual"].get<double>() < 0.2);
   const double volume = all.report["result"]["volume_double"];
   CHECK(volume > 0);
+  CHECK(all.report["views"][3]["score"].is_number());
+  CHECK(all.report["overlay"].is_null());
+  CHECK(!all.scene["layers"][0].contains("surface"));
+  // The image of a view, and colours of the images.
+  request["overlay"] = 3;
+  request["colors"] = "vertices";
+  all = compute(studio, request);
+  CHECK(all.report["overlay"]["view"] == 3);
+  CHECK(all.report["overlay"]["url"].get<std::string>().starts_with("data:image/png;base64,iVBOR"));
+  CHECK(all.scene["layers"][0].contains("surface"));
+  request["colors"] = "loud";
+  CHECK(answer(studio, "compute", request, 422)["field"] == "colors");
+  request["colors"] = "plain";
+  request["mask"] = "magic";
+  answer(studio, "compute", request, 422);
+  request["mask"] = "background:../outside.off";
+  answer(studio, "compute", request, 422);
+  request["mask"] = "";
   request["off"] = {0, 5};
   const Computed some = compute(studio, request);
   CHECK(some.report["views"][5]["on"] == false);
   CHECK(some.report["views"].size() == 12);
+  CHECK(some.report["overlay"]["view"] == 3);
   CHECK(some.report["result"]["volume_double"].get<double>() > volume);
   CHECK(some.scene["layers"].size() == 2);  // the hull, and cameras with their outlines
   request["off"] = {12};
@@ -237,8 +323,21 @@ TEST_CASE("Hulls: views switched off, and images of the scene") {
   request["threshold"] = "bright";
   answer(studio, "compute", request, 422);
   request["threshold"] = "";
+  // An image that is edited: the hull of the new one, then again that of the old one.
+  request["residuals"] = false;
+  request["simplify"] = "2";
+  const fs::path image = place.root / "eight_02.png";
+  fs::copy_file(image, fs::path(place.path()) / "kept.png");
+  fs::copy_file(place.root / "eight_03.png", image, fs::copy_options::overwrite_existing);
+  fs::last_write_time(image, fs::file_time_type::clock::now() + std::chrono::seconds(5));
+  const double edited = compute(studio, request).report["result"]["volume_double"];
+  CHECK(edited != volume);
+  fs::copy_file(fs::path(place.path()) / "kept.png", image, fs::copy_options::overwrite_existing);
+  fs::last_write_time(image, fs::file_time_type::clock::now() + std::chrono::seconds(10));
+  CHECK(compute(studio, request).report["result"]["volume_double"].get<double>() == volume);
+  request["simplify"] = "0";
   // An image that is not below the root.
-  fs::rename(place.root / "eight_03.png", place.path() / "eight_03.png");
+  fs::rename(place.root / "eight_03.png", fs::path(place.path()) / "eight_03.png");
   fs::create_symlink("../eight_03.png", place.root / "eight_03.png");
   const Json error = answer(studio, "compute", request, 422);
   CHECK(error["error"].get<std::string>().find("below the folder") != std::string::npos);
@@ -261,6 +360,43 @@ TEST_CASE("The state is kept in a file, and no page overwrites what another one 
   Studio named({.root = place.root, .files = {"cube.off", "studio.nefstudio"}}, [] {});
   CHECK(answer(named, "start", {})["files"] == Json({"cube.off"}));
   CHECK_THROWS_AS(Studio({.root = place.root, .files = {"../outside.off"}}, [] {}), InputError);
+}
+
+TEST_CASE("A state is computed without a page") {
+  const Place place;
+  fs::copy(fs::path(source_folder()) / "data/visual_hull/eight", place.root, fs::copy_options::recursive);
+  const StudioOptions options{.root = place.root, .files = {"a.nefstudio"}};
+  const auto run = [&](const Json& state, const std::string& output) {
+    std::ofstream(place.root / "a.nefstudio") << state.dump();
+    std::ostringstream report;
+    run_state(options, output, report);
+    return Json::parse(report.str());
+  };
+  const std::string output = (fs::path(place.path()) / "out.off").string();
+  Json state{{"nefstudio", 1}, {"panel", "sets"}};
+  CHECK_THROWS_AS(run(state, ""), InputError);
+  state["sets"] = {{"text", "file(\"cube.off\") + box(2,0,0, 3,1,1)"}, {"live", true}, {"crossings", "union"}};
+  state["sums"] = {
+      {"a", "box(0,0,0, 2,2,2)"}, {"b", "box(0,0,0, 1,1,1)"}, {"kind", "sum"}, {"radius", "1"}, {"splits", 3}};
+  state["hulls"] = {{"scene", "eight.json"}, {"off", {1}}, {"simplify", "2"}, {"threshold", ""}, {"residuals", false}};
+  state["planner"] = {{"text", R"~({"robot": "box(0,0,0, 1,1,1)", "obstacles": ["box(5,5,5, 6,6,6)"]})~"},
+                      {"folder", ""},
+                      {"moves", Json::object()},
+                      {"free", true},
+                      {"start", {"0", "0", "0"}},
+                      {"goal", {"9", "9", "9"}}};
+  CHECK(run(state, output)["result"]["volume"] == "2");
+  CHECK(volume(read_polyhedron(output)) == Rational(2));
+  state["panel"] = "sums";
+  CHECK(run(state, output)["result"]["volume"] == "27");
+  CHECK(volume(read_polyhedron(output)) == Rational(27));
+  state["panel"] = "hulls";
+  CHECK(run(state, "")["views"][1]["on"] == false);
+  state["panel"] = "planner";
+  CHECK(run(state, "")["answer"]["status"] == "path");
+  state["panel"] = "none";
+  CHECK_THROWS_AS(run(state, ""), InputError);
+  CHECK_THROWS_AS(run(Json::array(), ""), InputError);
 }
 
 TEST_CASE("Text files and uploads") {

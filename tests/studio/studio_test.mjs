@@ -7,6 +7,7 @@ import { spawn } from "node:child_process";
 import { copyFileSync, cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join, resolve } from "node:path";
 import { addDecimals, decimalNear, stepNumber } from "../../apps/studio/web/exact.js";
+import { movedPart, partAt, scaledPart, turnedPart, withDefinitions } from "../../apps/studio/web/parts/part_at.js";
 import { Browser, findChromium } from "../view/browser/chromium.mjs";
 
 const [nef, data, folderArgument, only = ""] = process.argv.slice(2);
@@ -110,6 +111,29 @@ const tests = {
     assert.equal(stepNumber("h2", 2, true), null);
   },
 
+  async "parts of a text are found, moved, turned and scaled"() {
+    const part = (text, at) => {
+      const found = partAt(text, at);
+      return found && text.slice(found.begin, found.end);
+    };
+    const text = 'a = box(0,0,0, 1,1,1); # box(\n a - translate(file("x)#(y"), [1,2,3]) + (b)';
+    assert.equal(part(text, 8), "box(0,0,0, 1,1,1)");
+    assert.equal(part(text, text.indexOf("x)")), 'file("x)#(y")');
+    assert.equal(part(text, text.indexOf("2,3")), 'translate(file("x)#(y"), [1,2,3])');
+    assert.equal(part(text, text.length - 1), null);
+    const defined = "a = polygon(0,0,0; 1,1,1); b = a; a + ball(1,2)";
+    assert.equal(withDefinitions(defined, partAt(defined, defined.length)), "a = polygon(0,0,0; 1,1,1); b = a;\nball(1,2)");
+    assert.equal(movedPart("ball(1,2)", ["0.1", "0", "-2"]), "translate(ball(1,2), 0.1,0,-2)");
+    assert.equal(movedPart("translate(ball(1,2), 0.1,0,-2)", ["0.2", "1", "0"]), "translate(ball(1,2), 0.3,1,-2)");
+    assert.equal(movedPart("translate(ball(1,2), 0.1,0,-2)", ["-0.1", "0", "2"]), "ball(1,2)");
+    assert.equal(movedPart("translate(a, h,0,0)", ["1", "0", "0"]), "translate(translate(a, h,0,0), 1,0,0)");
+    const once = turnedPart("box(0,0,0, 2,2,2)", "z", "30", ["1", "1", "1"]);
+    assert.equal(once, "translate(rotate(translate(box(0,0,0, 2,2,2), -1,-1,-1), z, 30), 1,1,1)");
+    assert.equal(turnedPart(once, "z", "-10", ["1", "1", "1"]), once.replace("30", "20"));
+    assert.equal(turnedPart("ball(1,2)", "x", "5", ["0", "0", "0"]), "rotate(ball(1,2), x, 5)");
+    assert.equal(scaledPart("ball(1,2)", "0.5", ["0", "0", "0"]), "scale(ball(1,2), 0.5)");
+  },
+
   async "sets: a text becomes a set, with its measures"(browser) {
     await openStudio(browser, server.address);
     await browser.until(measure("sets-measures", "Volume"));
@@ -158,14 +182,19 @@ const tests = {
   async "a click in the view shows what it hits, with its sphere map"(browser) {
     await type(browser, AREA, "interior(box(0,0,0, 1,1,1)) + point(1,0,1)");
     await browser.until(`${measure("sets-measures", "It is")}?.includes("not closed")`);
-    const corner = await browser.evaluate('nefViewer.page.layers[0].exact.points().indexOf("1 0 1")');
+    const corner = await browser.evaluate(`(() => {
+      const { center, layers: [{ vertices: { xyz } }] } = nefViewer.page;
+      for (let v = 0; 3 * v < xyz.length; ++v) if ([1, 0, 1].every((x, i) => xyz[3 * v + i] + center[i] === x)) return v;
+    })()`);
     const [x, y] = await browser.evaluate(`(() => {
       const [x, y] = nefViewer.picker.project(nefViewer.picker.vertexPoint(nefViewer.views[0], ${corner}));
       const box = nefViewer.canvas.getBoundingClientRect();
       return [box.x + x, box.y + y];
     })()`);
     await browser.click(x, y);
+    await browser.until(`${text("#item-text")}.includes("sphere map")`); // asked for
     assert.match(await browser.evaluate(text("#item-text")), /^Vertex \d+.*x1y0z1sphere map3 svertices, 3 sedges, 0 sloops, 2 sfaces/);
+    assert.equal(await browser.evaluate(hiddenNow("#sphere")), false);
     await picture(browser, "sets_vertex");
     await browser.evaluate("nefViewer.select(null)");
   },
@@ -190,6 +219,86 @@ const tests = {
     await browser.key("Enter", { text: "\r" });
     await browser.until(`${text("#export-said")}.includes("there already")`);
     await picture(browser, "sets_export");
+  },
+
+  async "sets: a mesh whose faces cross asks what is inside"(browser) {
+    await browser.evaluate(`(() => { document.querySelector("${AREA}").value = ""; nefStudio.sets.use('file("two.off")'); })()`);
+    await browser.until(`${measure("sets-measures", "Volume")}?.startsWith("15/8")`);
+    assert.equal(await browser.evaluate(hiddenNow("#sets-crossing")), false);
+    assert.equal(await browser.evaluate(text("#sets-crossing-text")), "6 pairs of faces cross. What is inside?");
+    await picture(browser, "sets_crossing");
+    const choose = (rule) => browser.evaluate(`(() => { const list = document.querySelector("#sets-crossings"); list.value = "${rule}"; list.dispatchEvent(new Event("change")); })()`);
+    await choose("odd");
+    await browser.until(`${measure("sets-measures", "Volume")}?.startsWith("7/4")`);
+    assert.match(await browser.evaluate(text("#sets-commands")), /--crossings odd/);
+    await choose("refuse");
+    await browser.until(`${text("#sets-editor .error")}.includes("cross each other")`);
+    assert.equal(await browser.evaluate(hiddenNow("#sets-crossing")), false);
+    await choose("union");
+    await browser.until(`${measure("sets-measures", "Volume")}?.startsWith("15/8")`);
+  },
+
+  async "sets: a part is moved, turned and scaled by its handles and by numbers"(browser) {
+    await type(browser, AREA, "box(0,0,0, 2,2,2) + box(5,0,0, 6,1,1)");
+    await browser.until(`${measure("sets-measures", "Volume")} === "9"`);
+    assert.equal(await browser.evaluate(hiddenNow("#sets-crossing")), true);
+    await browser.evaluate(`document.querySelector("${AREA}").setSelectionRange(26, 26)`);
+    await click(browser, "#parts-on");
+    await browser.until("nefStudio.sets.mover.gizmo.group !== null");
+    assert.equal(await browser.evaluate(text("#parts-name")), "box(5,0,0, 6,1,1)");
+    await picture(browser, "sets_gizmo");
+    const handle = (share) => `(() => {
+      const { gizmo } = nefStudio.sets.mover;
+      const { x, y, z } = gizmo.group.position;
+      const [px, py] = nefViewer.picker.project([x + ${share[0]} * gizmo.length, y + ${share[1]} * gizmo.length, z + ${share[2]} * gizmo.length]);
+      const box = nefViewer.canvas.getBoundingClientRect();
+      return [box.x + px, box.y + py];
+    })()`;
+    const middle = await browser.evaluate(handle([0, 0, 0]));
+    const tip = await browser.evaluate(handle([1, 0, 0]));
+    await browser.drag(tip, tip.map((x, i) => x + 0.8 * (x - middle[i])));
+    await browser.until(`/translate\\(box\\(5,0,0, 6,1,1\\), [.\\d]+,0,0\\)$/.test(${value(AREA)})`);
+    await browser.until(`document.querySelector("#progress").dataset.running === "false" && ${measure("sets-measures", "Volume")} === "9"`);
+    // Back by the versions, and on by numbers.
+    await click(browser, "#sets-undo");
+    await browser.until(`${value(AREA)} === "box(0,0,0, 2,2,2) + box(5,0,0, 6,1,1)"`);
+    await browser.until("document.querySelector('#progress').dataset.running === 'false'");
+    await browser.evaluate(`document.querySelector("${AREA}").setSelectionRange(26, 26), document.querySelector("${AREA}").dispatchEvent(new Event("pointerup"))`);
+    await browser.until("!document.querySelector('#parts-turn').disabled");
+    await type(browser, "#parts-by", "3");
+    await click(browser, "#parts-scale");
+    await browser.until(`${measure("sets-measures", "Volume")} === "35"`);
+    await browser.until("document.querySelector('#progress').dataset.running === 'false'");
+    await type(browser, "#parts-by", "90");
+    await browser.evaluate('document.querySelector("#parts-axis").value = "z"');
+    await click(browser, "#parts-turn");
+    await browser.until(`${value(AREA)}.includes(", z, 90)")`);
+    await browser.until(`document.querySelector("#progress").dataset.running === "false" && ${measure("sets-measures", "Volume")} === "35"`);
+    await picture(browser, "sets_gizmo_turned");
+    await click(browser, "#parts-on");
+    assert.equal(await browser.evaluate("nefStudio.sets.mover.gizmo.group"), null);
+  },
+
+  async "sets: a large set is changed in pieces"(browser) {
+    await type(browser, AREA, "sphere(10, 200) - translate(box(-1,-1,-1, 1,1,1), 0,0,10)");
+    await browser.until(`${measure("sets-measures", "In tiles")}?.includes("triangles")`);
+    await browser.evaluate("new Promise((done) => setTimeout(() => done(true), 300))");
+    await picture(browser, "sets_tiles");
+    const pieces = await browser.evaluate("(window.before = nefViewer.views.slice()).length");
+    assert.ok(pieces > 20, `${pieces} pieces`);
+    assert.equal(await browser.evaluate("document.querySelectorAll('#layers .layer').length"), 1, "one row for all pieces");
+    await type(browser, AREA, "sphere(10, 200) - translate(box(-1,-1,-1, 1,1,1), 1,0,10)");
+    await browser.until("document.querySelector('#progress').dataset.running === 'false' && !before.every((view) => nefViewer.views.includes(view))");
+    const kept = await browser.evaluate("before.filter((view) => nefViewer.views.includes(view)).length");
+    assert.ok(kept > pieces / 2, `${kept} of ${pieces} stay drawn`);
+    // An item of a piece tells its exact coordinates; the section's cut is filled.
+    await browser.evaluate("nefViewer.walk(1)");
+    await browser.until(`/sphere map/.test(${text("#item-text")})`);
+    await browser.evaluate("nefViewer.select(null)");
+    await browser.evaluate("document.querySelector('#section-on').click()");
+    await picture(browser, "sets_tiles_section");
+    assert.ok((await browser.evaluate(countPixels("(r, g, b) => b > 150 && b > 1.1 * r"))) > 20000, "the cut is filled");
+    await browser.evaluate("document.querySelector('#section-on').click()");
   },
 
   async "sums: operands, an offset by the slider, the tabs by the keyboard"(browser) {
@@ -227,6 +336,12 @@ const tests = {
     await browser.until('/%/.test(document.querySelector("#hulls-views .residual")?.textContent)');
     await picture(browser, "hulls_1280");
     await browser.evaluate('document.querySelector("#hulls-residuals").click()');
+    await click(browser, "#hulls-views li:nth-child(4) button");
+    await browser.until(`!${hiddenNow("#hulls-overlay")} && document.querySelector("#hulls-overlay-image").naturalWidth > 100`);
+    await browser.evaluate('document.querySelector("#hulls-overlay").scrollIntoView()');
+    await picture(browser, "hulls_overlay");
+    await click(browser, "#hulls-views li:nth-child(4) button");
+    await browser.until(hiddenNow("#hulls-overlay"));
     await click(browser, "#hulls-views li:nth-child(2) input");
     await browser.until(`${volume} > ${all}`);
     await focus(browser, "#hulls-views li:nth-child(3) input");
@@ -391,6 +506,11 @@ mkdirSync(root, { recursive: true });
 mkdirSync(join(folder, "away"));
 for (const name of ["rotor.off", "hole.off"]) copyFileSync(join(data, "meshes", name), join(root, name));
 copyFileSync(join(data, "meshes", "cross_quad.off"), join(folder, "away", "cross_quad.off"));
+// Two cubes in one mesh that cross.
+const cube = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => [i & 1, (i >> 1) & 1, i >> 2]);
+const sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
+writeFileSync(join(root, "two.off"), `OFF\n16 12 0\n${[...cube, ...cube.map((p) => p.map((x) => x + 0.5))].map((p) => p.join(" ")).join("\n")}\n` +
+  `${[...sides, ...sides.map((side) => side.map((i) => i + 8))].map((side) => `4 ${side.join(" ")}`).join("\n")}\n`);
 copyFileSync(join(data, "planner", "s1_tight_hole.json"), join(root, "s1_tight_hole.json"));
 cpSync(join(data, "visual_hull", "eight"), root, { recursive: true });
 server = await startServer();

@@ -8,7 +8,10 @@
 #include "apps/view/page/sphere_drawing.h"
 #include "apps/view/picture/picture_camera.h"
 #include "nef/base/error.h"
+#include "nef/construct/round_shapes.h"
 #include "nef/geometry/vectors.h"
+#include "nef/tiles/questions/tile_queries.h"
+#include "nef/tiles/tiled_polyhedron.h"
 #include "view/sets.h"
 
 namespace nef::view {
@@ -181,6 +184,33 @@ TEST_CASE("triangles enclose the exact volume of random unions of boxes") {
     RC_ASSERT(exact.has_value());
     RC_ASSERT(std::abs(enclosed_volume(build_scene(set)) - nearest_double(*exact)) < 1e-9);
   }));
+}
+
+TEST_CASE("the scenes of tiles together show the set") {
+  // Boxes on a grid have facets and edges in the walls of tiles; a sphere has none.
+  const std::vector<Polyhedron> boxes{cube(0, 4), make_box({4, 0, 0}, {8, 2, 4}), make_box({2, 2, 2}, {6, 6, 6})};
+  const Polyhedron open = subtract(unite_all(boxes), make_box({3, -1, 1}, {5, 3, 3}));
+  for (const Polyhedron& set : {unite_all(boxes), open, make_sphere(2, 20), mixture()}) {
+    const Scene whole = build_scene(set);
+    double area_of_whole = 0;
+    for (const SceneFacet& facet : whole.facets) area_of_whole += area(whole, facet);
+    double area_of_tiles = 0;
+    double volume_of_tiles = 0;
+    std::size_t own = 0;
+    const TiledPolyhedron tiled(set, {.limit = 12});
+    CHECK(tiled.tile_count() > 1);
+    for_each_leaf(tiled.tree(), [&](const TileRef& leaf, const Region& region) {
+      if (leaf.node->kind == TileNode::Kind::kUniform) return;
+      const Scene scene = build_tile_scene(leaf_set(leaf, region, {}));
+      for (const SceneFacet& facet : scene.facets) area_of_tiles += area(scene, facet);
+      volume_of_tiles += enclosed_volume(scene);
+      own += static_cast<std::size_t>(std::count_if(scene.vertices.begin(), scene.vertices.end(),
+                                                    [](const SceneVertex& v) { return v.origin == Origin::kOwn; }));
+    });
+    CHECK(area_of_tiles == Approx(area_of_whole));
+    CHECK(volume_of_tiles == Approx(enclosed_volume(whole)));
+    CHECK(own <= whole.vertices.size());
+  }
 }
 
 TEST_CASE("the sphere map of a cube's corner is an octant") {

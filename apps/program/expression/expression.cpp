@@ -7,7 +7,9 @@
 
 #include <algorithm>
 
+#include "apps/program/expression/expression_steps.h"
 #include "apps/program/expression/scanner.h"
+#include "apps/program/expression/syntax_key.h"
 #include "apps/program/expression/syntax_tree.h"
 #include "nef/construct/round_shapes.h"
 #include "nef/tiles/step_sequence.h"
@@ -22,12 +24,17 @@ class ExpressionEvaluator {
   Polyhedron operator()(const SyntaxNode& node) {
     if (node.term == Term::kVariable) return variables_[node.variable];
     if (node.term == Term::kBlock) {
-      for (std::size_t i = 0; i + 1 < node.sets.size(); ++i) variables_.push_back((*this)(node.sets[i]));
+      for (std::size_t i = 0; i + 1 < node.sets.size(); ++i) define(i, (*this)(node.sets[i]));
       return (*this)(node.sets.back());
     }
     std::vector<Polyhedron> sets;
     sets.reserve(node.sets.size());
     for (const SyntaxNode& child : node.sets) sets.push_back((*this)(child));
+    return combined(node, sets);
+  }
+
+  // The node, of whose sets these are.
+  [[nodiscard]] Polyhedron combined(const SyntaxNode& node, std::span<const Polyhedron> sets) const {
     if (node.term == Term::kFile) return file(node);
     const bool is_sum = node.term == Term::kMinkowski || node.term == Term::kErode;
     if ((is_sum && !options_.minkowski) || (node.term == Term::kBall && !options_.ball)) {
@@ -45,6 +52,12 @@ class ExpressionEvaluator {
     } catch (const InputError& error) {
       throw ExpressionError(place_in_text(text_, node.offset) + ": " + error.what(), node.offset);
     }
+  }
+
+  // Makes a variable known.
+  void define(std::size_t variable, Polyhedron set) {
+    if (variables_.size() <= variable) variables_.resize(variable + 1);
+    variables_[variable] = std::move(set);
   }
 
  private:
@@ -222,6 +235,24 @@ class ExpressionEvaluator {
   std::vector<Polyhedron> variables_;
 };
 
+BooleanOperator operator_of(Term term) {
+  switch (term) {
+    case Term::kUnion:
+      return BooleanOperator::kUnion;
+    case Term::kIntersection:
+      return BooleanOperator::kIntersection;
+    case Term::kDifference:
+      return BooleanOperator::kDifference;
+    default:
+      return BooleanOperator::kSymmetricDifference;
+  }
+}
+
+bool is_operation(Term term) {
+  return term == Term::kChain || term == Term::kUnion || term == Term::kIntersection || term == Term::kDifference ||
+         term == Term::kSymmetricDifference;
+}
+
 void collect_files(const SyntaxNode& node, std::vector<std::string>& files) {
   if (node.term == Term::kFile) files.push_back(node.path);
   for (const SyntaxNode& child : node.sets) collect_files(child, files);
@@ -231,6 +262,49 @@ void collect_files(const SyntaxNode& node, std::vector<std::string>& files) {
 
 Polyhedron evaluate_expression(std::string_view text, const ExpressionOptions& options) {
   return ExpressionEvaluator(text, options)(parse_expression(text));
+}
+
+ExpressionSteps::ExpressionSteps(std::string text)
+    : text_(std::move(text)), tree_(std::make_shared<const SyntaxNode>(parse_expression(text_))), root_(tree_.get()) {
+  if (tree_->term == Term::kBlock) {
+    block_ = tree_.get();
+    root_ = &block_->sets.back();
+  }
+}
+
+std::size_t ExpressionSteps::size() const {
+  return is_operation(root_->term) && root_->sets.size() > 1 ? root_->sets.size() : 1;
+}
+
+const SyntaxNode& ExpressionSteps::node(std::size_t i) const { return size() > 1 ? root_->sets[i] : *root_; }
+
+BooleanOperator ExpressionSteps::operation(std::size_t i) const {
+  return operator_of(root_->term == Term::kChain ? root_->operators[i - 1] : root_->term);
+}
+
+std::string ExpressionSteps::key(std::size_t i) const { return syntax_key(node(i), block_); }
+
+std::vector<std::string> ExpressionSteps::files(std::size_t i) const {
+  std::vector<std::string> files;
+  for (const std::size_t v : variables_of(node(i), block_)) collect_files(block_->sets[v], files);
+  collect_files(node(i), files);
+  return files;
+}
+
+bool ExpressionSteps::has_variables(std::size_t i) const { return !variables_of(node(i), block_).empty(); }
+
+Polyhedron ExpressionSteps::set(std::size_t i, const ExpressionOptions& options) {
+  ExpressionEvaluator evaluate(text_, options);
+  variables_.resize(block_ == nullptr ? 0 : block_->sets.size() - 1);
+  for (const std::size_t v : variables_of(node(i), block_)) {
+    if (!variables_[v]) variables_[v] = evaluate(block_->sets[v]);
+    evaluate.define(v, *variables_[v]);
+  }
+  return evaluate(node(i));
+}
+
+Polyhedron ExpressionSteps::combined(std::span<const Polyhedron> sets, const ExpressionOptions& options) const {
+  return size() > 1 ? ExpressionEvaluator(text_, options).combined(*root_, sets) : sets[0];
 }
 
 std::vector<std::string> files_of_expression(std::string_view text) {

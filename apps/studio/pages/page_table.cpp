@@ -75,13 +75,29 @@ std::optional<Computation::Progress> PageTable::progress(const std::string& name
   return found->second.running->progress();
 }
 
-Polyhedron PageTable::set(const std::string& name, const std::string& set) const {
+KeptSet PageTable::set(const std::string& name, const std::string& set) const {
   const std::lock_guard lock(mutex_);
   const auto page = pages_.find(name);
   if (page != pages_.end()) {
     if (const auto found = page->second.sets.find(set); found != page->second.sets.end()) return found->second;
   }
   throw InputError("there is no result '" + set + "' yet: compute it first");
+}
+
+void PageTable::keep_drawn(const std::string& name, std::uint64_t scene, std::vector<Polyhedron> sources) {
+  const std::lock_guard lock(mutex_);
+  Page& page = page_of(name);
+  page.scene = scene;
+  page.drawn.swap(sources);
+}
+
+Polyhedron PageTable::drawn(const std::string& name, std::uint64_t scene, std::size_t layer) const {
+  const std::lock_guard lock(mutex_);
+  const auto page = pages_.find(name);
+  if (page == pages_.end() || page->second.scene != scene || layer >= page->second.drawn.size()) {
+    throw InputError("the page shows another scene by now");
+  }
+  return page->second.drawn[layer];
 }
 
 }  // namespace nef::studio

@@ -12,14 +12,16 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/studio/pages/computation.h"
+#include "apps/studio/pages/kept_set.h"
 #include "nef/polyhedron.h"
 
 namespace nef::studio {
 
 /// What a computation has left: sets by name.
-using Sets = std::map<std::string, Polyhedron>;
+using Sets = std::map<std::string, KeptSet>;
 
 class PageTable {
  public:
@@ -43,7 +45,14 @@ class PageTable {
   /// How far a page's computation has come; nothing if it computes nothing.
   [[nodiscard]] std::optional<Computation::Progress> progress(const std::string& page) const;
   /// A set of a page's last computation. Throws InputError if there is none of this name.
-  [[nodiscard]] Polyhedron set(const std::string& page, const std::string& name) const;
+  [[nodiscard]] KeptSet set(const std::string& page, const std::string& name) const;
+
+  /// Keeps what the layers of a page's scene were drawn from, in place of those of the scene before; `scene` is its
+  /// number.
+  void keep_drawn(const std::string& page, std::uint64_t scene, std::vector<Polyhedron> sources);
+  /// What a layer of a page's last scene was drawn from. Throws InputError if `scene` is another one, or has no such
+  /// layer.
+  [[nodiscard]] Polyhedron drawn(const std::string& page, std::uint64_t scene, std::size_t layer) const;
 
  private:
   struct Page {
@@ -51,6 +60,8 @@ class PageTable {
     std::uint64_t wanted = 0;  // the number of the last call of compute
     std::shared_ptr<Computation> running;
     Sets sets;
+    std::uint64_t scene = 0;
+    std::vector<Polyhedron> drawn;  // of the layers of the scene
   };
 
   Page& page_of(const std::string& name);

@@ -5,15 +5,50 @@
 #include "apps/minkowski/morphology.h"
 #include "apps/program/expression/expression.h"
 #include "apps/program/expression/functions.h"
+#include "nef/construct/crossings.h"
 #include "nef/io/polyhedron_file.h"
 
 namespace nef::studio {
 namespace {
 
-// Notes once each, however often their file is named.
-void add_once(const Messages& some, Messages& messages) {
-  for (const std::string& line : some) {
-    if (std::find(messages.begin(), messages.end(), line) == messages.end()) messages.push_back(line);
+// How meshes that cross themselves are read.
+Crossings crossings_of(const Json& request) {
+  const auto member = request.find("crossings");
+  if (member == request.end()) return Crossings::kUnion;
+  const auto rule = member->is_string() ? crossings_of_name(member->get<std::string>()) : std::nullopt;
+  if (!rule) throw FieldError("crossings", 0, "there is no such rule for faces that cross");
+  return *rule;
+}
+
+ExpressionCache::Result evaluate_field(const Json& request, const std::string& field, const PanelContext& context,
+                                       bool tiles, Messages& messages) {
+  ExpressionOptions options;
+  Messages told;
+  const Crossings crossings = crossings_of(request);
+  options.load = [&](const std::string& file, const Monitor& monitor) {
+    Messages notes;
+    const std::string path = context.root.mesh(file);
+    Polyhedron set = context.files.load(path, crossings, monitor, notes);
+    for (std::string& note : notes) {
+      if (note.starts_with(path)) note = file + note.substr(path.size());  // as it was named
+      told.push_back(note);
+    }
+    return set;
+  };
+  options.minkowski = [](const Polyhedron& a, const Polyhedron& b, const Monitor& monitor) {
+    return minkowski::minkowski_sum(a, b, {.monitor = monitor});
+  };
+  options.ball = minkowski::inner_ball;
+  options.hull = minkowski::hull;
+  options.monitor = context.monitor;
+  options.warn = [&told](const std::string& warning) { told.push_back(warning); };
+  const std::string text = text_of(request, field);
+  if (is_blank_expression(text)) throw FieldError(field, 0, "write a set here, such as box(0,0,0, 1,1,1)");
+  const auto state_of_file = [&context](const std::string& file) { return state_of_mesh(context.root.mesh(file)); };
+  try {
+    return context.expressions.evaluate(text, name(crossings), options, told, state_of_file, tiles, messages);
+  } catch (const ExpressionError& error) {
+    throw FieldError(field, error.offset(), error.what());
   }
 }
 
@@ -27,31 +62,12 @@ std::string text_of(const Json& request, const std::string& member) {
 
 Polyhedron set_of_field(const Json& request, const std::string& field, const PanelContext& context,
                         Messages& messages) {
-  ExpressionOptions options;
-  options.load = [&](const std::string& file, const Monitor& monitor) {
-    Messages notes;
-    const std::string path = context.root.mesh(file);
-    Polyhedron set = context.files.load(path, monitor, notes);
-    for (std::string& note : notes) {
-      if (note.starts_with(path)) note = file + note.substr(path.size());  // as it was named
-    }
-    add_once(notes, messages);
-    return set;
-  };
-  options.minkowski = [](const Polyhedron& a, const Polyhedron& b, const Monitor& monitor) {
-    return minkowski::minkowski_sum(a, b, {.monitor = monitor});
-  };
-  options.ball = minkowski::inner_ball;
-  options.hull = minkowski::hull;
-  options.monitor = context.monitor;
-  options.warn = [&messages](const std::string& warning) { add_once({warning}, messages); };
-  const std::string text = text_of(request, field);
-  if (is_blank_expression(text)) throw FieldError(field, 0, "write a set here, such as box(0,0,0, 1,1,1)");
-  try {
-    return evaluate_expression(text, options);
-  } catch (const ExpressionError& error) {
-    throw FieldError(field, error.offset(), error.what());
-  }
+  return *evaluate_field(request, field, context, false, messages).whole;
+}
+
+ExpressionCache::Result set_or_tiles_of_field(const Json& request, const std::string& field,
+                                              const PanelContext& context, Messages& messages) {
+  return evaluate_field(request, field, context, true, messages);
 }
 
 Json language_json() {

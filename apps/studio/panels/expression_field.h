@@ -15,6 +15,10 @@ namespace nef::studio {
 /// Throws FieldError.
 Polyhedron set_of_field(const Json& request, const std::string& field, const PanelContext& context, Messages& messages);
 
+/// The same, in tiles where ExpressionCache takes them.
+ExpressionCache::Result set_or_tiles_of_field(const Json& request, const std::string& field,
+                                              const PanelContext& context, Messages& messages);
+
 /// The language of expressions for the editor: {"functions": [{"name", "usage"}], "formats": [extensions that are
 /// written]}.
 Json language_json();

@@ -6,8 +6,10 @@
 #include <cmath>
 
 #include "apps/program/set_info.h"
+#include "apps/studio/caches/silhouette_cache.h"
 #include "apps/studio/panels/panel.h"
-#include "apps/studio/panels/silhouette_cache.h"
+#include "apps/view/page/byte_text.h"
+#include "apps/visual_hull/command/pictures/overlay.h"
 #include "apps/visual_hull/command/pictures/pictures.h"
 #include "apps/visual_hull/visual_hull.h"
 #include "nef/base/timing/stopwatch.h"
@@ -19,6 +21,7 @@ namespace {
 OutlineOptions outline_options(const Json& request) {
   OutlineOptions options;
   options.threshold = text_of(request, "threshold");
+  if (request.contains("mask")) options.mask = text_of(request, "mask");
   const std::string text = text_of(request, "simplify");
   const std::optional<Rational> simplify = try_parse_rational(text.empty() ? "0" : text);
   if (!simplify || *simplify < 0 || *simplify > 1000) {
@@ -54,13 +57,72 @@ Json view_json(const visual_hull::View& view, const visual_hull::ViewResult* res
   return json;
 }
 
+// Of all views, and which of them disagrees with the others if they were compared.
+void add_views(const visual_hull::Scene& all, const std::vector<bool>& off, const visual_hull::Result& hull,
+               Json& report) {
+  report["views"] = Json::array();
+  report["suspect"] = nullptr;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < all.views.size(); ++i) {
+    report["views"].push_back(view_json(all.views[i], off[i] ? nullptr : &hull.views[next]));
+    if (off[i]) continue;
+    if (hull.consistency && next < hull.consistency->views.size()) {
+      const double score = hull.consistency->views[next].score;
+      if (std::isfinite(score)) report["views"].back()["score"] = score;
+      if (hull.consistency->guilty == next) report["suspect"] = i;
+    }
+    ++next;
+  }
+}
+
+visual_hull::HullColors colors_of(const Json& request) {
+  const std::string name = request.contains("colors") ? text_of(request, "colors") : "plain";
+  if (name == "plain") return visual_hull::HullColors::kPlain;
+  if (name == "vertices") return visual_hull::HullColors::kVertices;
+  if (name == "texture") return visual_hull::HullColors::kTexture;
+  throw FieldError("colors", 0, "'" + name + "' is none of plain, vertices, texture");
+}
+
+// A hull whose views have their images again, and the numbers of these views in the scene.
+struct Shown {
+  visual_hull::Result hull;
+  std::vector<std::size_t> numbers;
+};
+
+Shown with_images(const visual_hull::Result& hull, const TracedScene& traced, const std::vector<bool>& off) {
+  Shown shown{hull, {}};
+  for (std::size_t i = 0; i < off.size(); ++i) {
+    if (off[i]) continue;
+    visual_hull::ViewResult& view = shown.hull.views[shown.numbers.size()];
+    view.image = traced.images[i];
+    view.distortion = traced.distortions[i];
+    view.silhouette.image_size = {traced.sizes[i].width, traced.sizes[i].height};
+    shown.numbers.push_back(i);
+  }
+  return shown;
+}
+
+// The image of one view with its outline, the hull over it, and what of the outline the hull does not reach; null if
+// none is wanted or it is switched off.
+Json overlay_of(const Json& request, const Shown& shown, const Monitor& monitor) {
+  const auto wanted = request.find("overlay");
+  if (wanted == request.end() || !wanted->is_number_unsigned()) return nullptr;
+  const auto found = std::find(shown.numbers.begin(), shown.numbers.end(), wanted->get<std::size_t>());
+  if (found == shown.numbers.end()) return nullptr;
+  monitor.check_interruption();
+  const visual_hull::ViewResult& view = shown.hull.views[static_cast<std::size_t>(found - shown.numbers.begin())];
+  const cv::Mat picture = visual_hull::draw_overlay(view, shown.hull.hull, shown.hull.origin);
+  return {{"view", *found}, {"url", "data:image/png;base64," + view::base64(visual_hull::png_of(picture))}};
+}
+
 }  // namespace
 
 PanelResult hulls_panel(const Json& request, const PanelContext& context) {
   const Stopwatch watch;
   Messages notes;
-  const visual_hull::Scene all = context.silhouettes.scene(context.root, text_of(request, "scene"),
-                                                           outline_options(request), context.monitor, notes);
+  const TracedScene traced = context.silhouettes.scene(context.root, text_of(request, "scene"),
+                                                       outline_options(request), context.monitor, notes);
+  const visual_hull::Scene& all = traced.scene;
   PanelResult result;
   result.report["outlines_s"] = watch.seconds();
   const std::vector<bool> off = switched_off(request, all.views.size());
@@ -73,20 +135,22 @@ PanelResult hulls_panel(const Json& request, const PanelContext& context) {
   visual_hull::Options options;
   options.monitor = context.monitor;
   options.verify = request.value("residuals", false);
+  options.suspects = options.verify;
   const Stopwatch hull_watch;
-  const visual_hull::Result hull = visual_hull::compute(scene, context.root.path(), options);
+  visual_hull::Result hull = visual_hull::compute(scene, context.root.path(), options);
   result.report["op_s"] = hull_watch.seconds();
   result.report["result"] = set_info(hull.hull, {.bounds = true}, context.monitor);
   notes.insert(notes.end(), hull.notes.begin(), hull.notes.end());
   if (hull.vanished) notes.push_back(hull.vanished->view + ": " + hull.vanished->reason);
   result.report["notes"] = notes;
-  result.report["views"] = Json::array();
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < all.views.size(); ++i) {
-    result.report["views"].push_back(view_json(all.views[i], off[i] ? nullptr : &hull.views[next++]));
-  }
+  add_views(all, off, hull, result.report);
+  const visual_hull::HullColors colors = colors_of(request);
+  const Shown shown = with_images(hull, traced, off);
   result.layers =
-      visual_hull::page_layers(hull, hull.origin, visual_hull::hull_layer(hull, hull.origin, context.monitor));
+      visual_hull::page_layers(hull, hull.origin,
+                               visual_hull::hull_layer(colors == visual_hull::HullColors::kPlain ? hull : shown.hull,
+                                                       hull.origin, context.monitor, colors));
+  result.report["overlay"] = overlay_of(request, shown, context.monitor);
   result.sets = {{"result", hull.hull}};
   return result;
 }

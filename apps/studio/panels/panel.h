@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What a panel of the page computes: a request of its script in, a report, things to draw and sets out. A new panel is
-// a function of this type and a row in studio.cpp.
+// a function of this type and a row in panels.h.
 #pragma once
 
 #include <functional>
@@ -9,11 +9,13 @@
 #include <string>
 #include <vector>
 
+#include "apps/studio/caches/expression_cache.h"
+#include "apps/studio/caches/loaded_files.h"
+#include "apps/studio/caches/scene_cache.h"
+#include "apps/studio/caches/silhouette_cache.h"
 #include "apps/studio/pages/page_table.h"
-#include "apps/studio/panels/loaded_files.h"
-#include "apps/studio/panels/scene_cache.h"
-#include "apps/studio/panels/silhouette_cache.h"
 #include "apps/studio/root/root_folder.h"
+#include "apps/studio/tiles/tile_pieces.h"
 #include "apps/view/layer.h"
 #include "nef/base/monitor.h"
 
@@ -25,6 +27,8 @@ using Json = nlohmann::ordered_json;
 struct PanelContext {
   const RootFolder& root;
   LoadedFiles& files;
+  ExpressionCache& expressions;
+  TilePieces& tiles;
   SilhouetteCache& silhouettes;
   SceneCache& scenes;
   Monitor monitor;
@@ -34,6 +38,7 @@ struct PanelContext {
 struct PanelResult {
   Json report = Json::object();     ///< for the script of the panel
   std::vector<view::Layer> layers;  ///< for the viewer
+  std::vector<Piece> pieces;        ///< further ones
   Sets sets;                        ///< what can be exported, by name
 };
 
@@ -57,15 +62,17 @@ class FieldError : public InputError {
 /// The text of a request's member. Throws InputError if it is not there or no text.
 std::string text_of(const Json& request, const std::string& member);
 
-/// An expression: {"text"}. Sets: "result".
+/// An expression: {"text", "crossings": the rule for meshes, "part": an expression whose box is wanted}. Sets:
+/// "result".
 PanelResult sets_panel(const Json& request, const PanelContext& context);
 /// Two operands: {"a", "b", "kind", "radius", "splits"}. Sets: "result".
 PanelResult sums_panel(const Json& request, const PanelContext& context);
-/// A scene of a visual hull: {"scene": its file, "off": numbers of views, "threshold", "simplify", "residuals"}. Sets:
-/// "result".
+/// A scene of a visual hull: {"scene": its file, "off": numbers of views, "threshold", "mask", "simplify", "residuals":
+/// suspects, too, "colors", "overlay": the number of a view}. Sets: "result".
 PanelResult hulls_panel(const Json& request, const PanelContext& context);
 /// A scene of translations: {"scene": what the file says, "folder": where it is, "start", "goal", "moves": translations
-/// by the numbers of obstacles, "free": whether free space is wanted}. Sets: "robot", and "free space" if it was made.
+/// by the numbers of obstacles, "free": whether free space is wanted, "dragged": whether any path will do}. Sets:
+/// "robot", and "free space" if it was made.
 PanelResult planner_panel(const Json& request, const PanelContext& context);
 
 }  // namespace nef::studio

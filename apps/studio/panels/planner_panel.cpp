@@ -7,6 +7,7 @@
 
 #include "apps/planner/command/report.h"
 #include "apps/planner/command/scene_view.h"
+#include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/path/partial_answer.h"
 #include "apps/planner/path/question.h"
 #include "apps/planner/scene/scene.h"
@@ -45,35 +46,63 @@ std::map<std::size_t, Rational3> moves_of(const Json& request, std::size_t obsta
 }
 
 // As those of the planner's pages, but for the obstacles: those that are moved, or all if they are few, are layers of
-// their own.
-std::vector<view::Layer> layers_of_answer(const planner::Answer& answer, const planner::Scene& scene,
-                                          const planner::FreeSpace* free,
-                                          const std::shared_ptr<const planner::Scene>& resting,
-                                          const std::map<std::size_t, Rational3>& moves, const PanelContext& context) {
+// their own, the others a piece that stays.
+void draw_answer(const planner::Answer& answer, const planner::Scene& scene, const planner::FreeSpace* free,
+                 RestingScene& resting, const std::map<std::size_t, Rational3>& moves, const Monitor& monitor,
+                 PanelResult& result) {
   planner::Scene without = scene;
   without.obstacles.clear();
-  std::vector<view::Layer> layers = planner::view_layers(answer, without, free);
+  result.layers = planner::view_layers(answer, without, free);
   const bool all = scene.obstacles.size() <= kMostLayers;
   std::vector<planner::ShownSet> parts;
-  std::vector<std::size_t> moved;
   for (std::size_t i = 0; i < scene.obstacles.size(); ++i) {
     if (!all && !moves.contains(i)) continue;
     parts.push_back(
         {"obstacle " + std::to_string(i), scene.obstacles[i], planner::kObstaclesColor, planner::kObstaclesOpacity});
-    moved.push_back(i);
   }
   std::vector<view::Layer> obstacles = planner::layers_of(parts);
-  if (!all) obstacles.push_back(context.scenes.other_obstacles(resting, moved, context.monitor));
-  layers.insert(layers.end(), std::make_move_iterator(obstacles.begin()), std::make_move_iterator(obstacles.end()));
-  return layers;
+  result.layers.insert(result.layers.end(), std::make_move_iterator(obstacles.begin()),
+                       std::make_move_iterator(obstacles.end()));
+  if (all) return;
+  Piece rest = resting.obstacles(monitor);
+  if (rest.scene) result.pieces.push_back(std::move(rest));
+}
+
+// The free positions where some obstacles are moved: those among the others, less what the moved ones forbid.
+Polyhedron free_positions_of(const planner::Scene& scene, const std::map<std::size_t, Rational3>& moves,
+                             RestingScene& resting, const Monitor& monitor) {
+  if (moves.empty() || !planner::obstacles_are_independent(scene)) return planner::free_positions(scene, monitor);
+  planner::Scene now = resting.scene();
+  Polyhedron free = resting.free_positions(monitor);
+  for (const auto& [i, move] : moves) {
+    const planner::ObstacleChange comes{std::nullopt, scene.obstacles[i]};
+    free = planner::free_positions_after(comes, now, free, monitor);
+    planner::apply(comes, now);
+  }
+  return free;
+}
+
+// As a Problem finds it, in free positions that are known.
+planner::Answer answer_in(const planner::FreeSpace& free, const planner::Scene& scene,
+                          const planner::PathOptions& options, const Monitor& monitor) {
+  if (auto invalid = planner::Problem::invalid_end(scene, *scene.start, *scene.goal, monitor)) return *invalid;
+  const planner::CellId start = free.locate(planner::ExactPoint(*scene.start));
+  const planner::CellId goal = free.locate(planner::ExactPoint(*scene.goal));
+  planner::Answer answer;
+  answer.start_component = free.component(start);
+  answer.goal_component = free.component(goal);
+  answer.thinness = free.thinness(start, goal);
+  answer.path = planner::find_path(free, *scene.start, *scene.goal, options, monitor);
+  answer.status = answer.path ? planner::AnswerStatus::kPath : planner::AnswerStatus::kInfeasible;
+  return answer;
 }
 
 }  // namespace
 
 PanelResult planner_panel(const Json& request, const PanelContext& context) {
-  const std::shared_ptr<const planner::Scene> resting =
+  const ScenePointer file =
       context.scenes.scene(context.root, text_of(request, "scene"), text_of(request, "folder"), context.monitor);
-  planner::Scene scene = *resting;
+  planner::Scene scene = *file;
   if (!scene.only_translates()) {
     throw UnsupportedError("the studio plans translations; for this scene, whose robot turns, run planner");
   }
@@ -83,32 +112,36 @@ PanelResult planner_panel(const Json& request, const PanelContext& context) {
   for (const auto& [i, move] : moves) {
     scene.obstacles[i] = transform(scene.obstacles[i], AffineMap::translate(move), context.monitor);
   }
+  std::vector<std::size_t> moved;
+  for (const auto& [i, move] : moves) moved.push_back(i);
+  const std::shared_ptr<RestingScene> resting = context.scenes.resting(file, moved);
   const bool wants_free = request.value("free", false);
+  planner::PathOptions options;
+  options.thorough = !request.value("dragged", false);
   const Stopwatch watch;
   planner::Answer answer;
-  std::optional<planner::Problem> problem;
+  std::unique_ptr<const planner::FreeSpace> free;
   const bool has_question = scene.start && scene.goal;
   std::optional<planner::Answer> early;
   if (has_question && !wants_free) {
     early = planner::Problem::invalid_end(scene, *scene.start, *scene.goal, context.monitor);
-    if (!early) early = planner::partial_answer(scene, {}, context.monitor);
+    if (!early) early = planner::partial_answer(scene, options, context.monitor);
   }
   if (early) {
     answer = *std::move(early);
   } else {
-    problem.emplace(scene, context.monitor);
-    if (has_question) answer = problem->solve({}, context.monitor);
+    free = std::make_unique<const planner::FreeSpace>(free_positions_of(scene, moves, *resting, context.monitor));
+    if (has_question) answer = answer_in(*free, scene, options, context.monitor);
   }
-  const planner::FreeSpace* free = problem ? &problem->free_space() : nullptr;
   PanelResult result;
   result.report["op_s"] = watch.seconds();
-  result.report["answer"] = planner::answer_report(answer, scene, free);
+  result.report["answer"] = planner::answer_report(answer, scene, free.get());
   result.report["obstacles"] = scene.obstacle_names;
   result.report["notes"] = scene.messages;
   for (const auto& [name, point] : {std::pair{"start", scene.start}, std::pair{"goal", scene.goal}}) {
     result.report[name] = point ? Json(exact_json(*point)) : Json();
   }
-  result.layers = layers_of_answer(answer, scene, free, resting, moves, context);
+  draw_answer(answer, scene, free.get(), *resting, moves, context.monitor, result);
   result.sets.emplace("robot", scene.robot);
   if (free != nullptr) result.sets.emplace("free space", free->set());
   return result;

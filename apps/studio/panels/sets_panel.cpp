@@ -6,18 +6,56 @@
 
 namespace nef::studio {
 
+namespace {
+
+// Of a set in tiles: what need not be glued for.
+Json info_of_tiles(const TiledPolyhedron& set, const DrawnTiles& drawn) {
+  Json info{{"volume", nullptr}, {"volume_double", nullptr}};
+  if (drawn.volume) {
+    info["volume_double"] = drawn.volume->value;
+    info["volume_error"] = drawn.volume->error;
+  }
+  info["triangles"] = drawn.triangles;
+  info["tiles"] = set.tile_count();
+  return info;
+}
+
+// Where the part of the text that somebody looks at is: a box of doubles; null if it is unbounded, empty, or no set.
+Json box_of_part(const Json& request, const PanelContext& context) {
+  const auto part = request.find("part");
+  if (part == request.end() || !part->is_string()) return nullptr;
+  try {
+    Messages ignored;
+    const auto box = bounding_box(set_of_field(request, "part", context, ignored), context.monitor);
+    if (!box) return nullptr;
+    return {nearest_doubles((*box)[0]), nearest_doubles((*box)[1])};
+  } catch (const InputError&) {
+    return nullptr;  // what is wrong with the whole text is told already
+  }
+}
+
+}  // namespace
+
 PanelResult sets_panel(const Json& request, const PanelContext& context) {
   const Stopwatch watch;
   Messages notes;
-  const Polyhedron set = set_of_field(request, "text", context, notes);
+  const ExpressionCache::Result set = set_or_tiles_of_field(request, "text", context, notes);
   PanelResult result;
   result.report["op_s"] = watch.seconds();
-  result.report["result"] = set_info(set, {}, context.monitor);
   result.report["notes"] = notes;
+  result.report["part"] = box_of_part(request, context);
+  if (set.tiled) {
+    DrawnTiles drawn = context.tiles.draw(*set.tiled, context.monitor);
+    result.report["result"] = info_of_tiles(*set.tiled, drawn);
+    result.pieces = std::move(drawn.pieces);
+    result.sets.emplace("result", *set.tiled);
+    return result;
+  }
+  result.report["result"] = set_info(*set.whole, {}, context.monitor);
   view::Layer& layer = result.layers.emplace_back();
   layer.name = "result";
-  layer.scene = view::build_scene(set, {}, context.monitor);
-  result.sets.emplace("result", set);
+  layer.scene = view::build_scene(*set.whole, {}, context.monitor);
+  result.sets.emplace("result", *set.whole);
   return result;
 }
 

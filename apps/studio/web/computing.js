@@ -14,6 +14,8 @@ export class Computing {
     Object.assign(this, { onScene, onGone });
     this.number = 0;
     this.delayed = null;
+    this.running = 0;
+    this.waiting = null; // what runs next
     byId("cancel").addEventListener("click", () => this.cancel());
   }
 
@@ -23,11 +25,21 @@ export class Computing {
     this.delayed = setTimeout(work, delay);
   }
 
+  // Runs `work` as soon as nothing runs, unless something else is wanted meanwhile: who drags sees each answer rather than
+  // none until he rests.
+  next(work) {
+    clearTimeout(this.delayed);
+    if (this.running === 0) work();
+    else this.waiting = work;
+  }
+
   // Asks a panel's computation. Returns {report, seconds}, or null if it was cancelled or a newer one has come meanwhile.
   // Throws ServerError.
   async run(panel, request) {
     clearTimeout(this.delayed);
     const me = ++this.number;
+    ++this.running;
+    this.waiting = null;
     const begin = performance.now();
     byId("progress").dataset.running = "true";
     const showing = setTimeout(() => this.#showProgress(me), SHOW_AFTER);
@@ -49,10 +61,17 @@ export class Computing {
         byId("progress").hidden = true;
         byId("progress").dataset.running = "false";
       }
+      --this.running;
+      const work = this.waiting;
+      if (work && this.running === 0) {
+        this.waiting = null;
+        work();
+      }
     }
   }
 
   async cancel() {
+    this.waiting = null;
     try {
       await ask("cancel");
     } catch (error) {

@@ -62,6 +62,14 @@ export class ExpressionEditor {
     this.showError(null);
   }
 
+  // Other text in a range of it, without telling onChange; the cursor is put before it.
+  replace(begin, end, text) {
+    this.area.setRangeText(text, begin, end, "start");
+    this.area.setSelectionRange(begin, begin);
+    this.mark = null;
+    this.#paint();
+  }
+
   // {offset, message} or null.
   showError(error) {
     this.mark = error ? charactersOf(this.text, error.offset) : null;

@@ -23,7 +23,8 @@ export function measureRows(info) {
   }
   if (info.area !== undefined) rows.push(["Area", measureText(null, info.area, info.area_error)]);
   const counts = ["vertices", "edges", "facets", "volumes"].filter((name) => info[name] !== undefined);
-  rows.push(["Items", counts.map((name) => `${info[name]} ${name}`).join(", ")]);
+  if (info.tiles) rows.push(["In tiles", `${info.tiles}, ${info.triangles} triangles`]);
+  else rows.push(["Items", counts.map((name) => `${info[name]} ${name}`).join(", ")]);
   const properties = ["closed", "open", "bounded", "regular", "convex"].filter((name) => typeof info[name] === "boolean");
   if (properties.length > 0) rows.push(["It is", properties.map(yes).join(", ")]);
   return rows;

@@ -2,6 +2,7 @@
 //
 // What the page asks its server (apps/studio/studio.h).
 import { parseScene } from "../../view/web/scene_data.js";
+import { pieceOf, putTogether } from "./pieces.js";
 
 const TOKEN = new URLSearchParams(location.search).get("token") ?? "";
 
@@ -48,14 +49,31 @@ export async function ask(name, request = {}) {
   return (await post(name, JSON.stringify({ page: PAGE, ...request }))).json();
 }
 
+// The pieces of the last scene, by their numbers: what has not changed is not sent again.
+let pieces = new Map();
+
 // A panel's computation: its report, and the scene for the viewer.
 export async function computePanel(panel, request) {
-  const reply = await post("compute", JSON.stringify({ page: PAGE, panel, ...request }));
+  const known = pieces; // another computation may end meanwhile
+  const reply = await post("compute", JSON.stringify({ page: PAGE, panel, has: [...known.keys()], ...request }));
   const bytes = await reply.arrayBuffer();
-  const length = new DataView(bytes).getUint32(0, true);
-  const report = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length)));
-  return { report, scene: parseScene(bytes.slice(4 + length)) };
+  const header = new DataView(bytes);
+  let at = 8;
+  const part = (length) => bytes.slice(at, (at += length));
+  const report = JSON.parse(new TextDecoder().decode(part(header.getUint32(0, true))));
+  const scene = parseScene(part(header.getUint32(4, true)));
+  const here = new Map();
+  for (const [id, length] of report.pieces) here.set(id, length > 0 ? pieceOf(parseScene(part(length))) : known.get(id));
+  if (here.size > 0) {
+    pieces = here;
+    putTogether(scene, [...here.values()]);
+  }
+  scene.number = report.scene;
+  return { report, scene };
 }
+
+// The exact coordinates and sphere maps of an item of the scene that is shown.
+export const askItem = (scene, item) => ask("item", { scene, ...item });
 
 // Puts a file of the user below the root; returns its name there.
 export async function upload(file) {

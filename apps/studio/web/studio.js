@@ -3,11 +3,12 @@
 // The studio: panels on the left, one viewer on the right, and the state, which the server keeps in a file.
 import { Computing } from "./computing.js";
 import { ExportForm } from "./export_form.js";
-import { HullsPanel } from "./hulls_panel.js";
-import { PlannerPanel } from "./planner_panel.js";
+import { HullsPanel } from "./panels/hulls_panel.js";
+import { itemDetails } from "./item_details.js";
+import { PlannerPanel } from "./panels/planner_panel.js";
 import { ask, ServerError, upload } from "./server.js";
-import { SetsPanel } from "./sets_panel.js";
-import { SumsPanel } from "./sums_panel.js";
+import { SetsPanel } from "./panels/sets_panel.js";
+import { SumsPanel } from "./panels/sums_panel.js";
 import { byId } from "../../view/web/panel.js";
 import { Viewer } from "../../view/web/viewer.js";
 
@@ -45,6 +46,7 @@ class StudioPage {
     this.planner = new PlannerPanel(shared);
     this.panels = [this.sets, new SumsPanel(shared), this.hulls, this.planner];
     this.viewer.control.grab = (x, y) => this.panel.grab?.(x, y) ?? null;
+    this.viewer.details = (item) => itemDetails(this.viewer.page, item).catch((error) => this.#showGone(error));
     this.viewer.onSelect = (item) => this.panel?.selected?.(item);
     byId("root").textContent = begin.root;
     byId("state-file").textContent = begin.state_file;

@@ -2,12 +2,12 @@
 //
 // Coordinates are written as floats relative to the centre of the page, so that a small thing far from the origin
 // still looks right; everything exact is text.
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "apps/view/page.h"
 #include "apps/view/page/byte_text.h"
-#include "apps/view/page/sphere_drawing.h"
+#include "apps/view/page/exact_text.h"
+#include "apps/view/page/sphere_arrays.h"
 
 namespace nef::view {
 namespace {
@@ -22,11 +22,6 @@ std::string hex(const Color& color) {
     text += kDigits[c & 15U];
   }
   return text;
-}
-
-// Six-decimal directions would be finer than any screen; 16 bits are enough for a sphere of a few hundred pixels.
-void push_unit(std::vector<std::int16_t>& out, const std::array<double, 3>& v) {
-  for (const double x : v) out.push_back(static_cast<std::int16_t>(std::lround(x * 32767)));
 }
 
 // Collects the arrays of all layers behind one another.
@@ -75,11 +70,9 @@ class SceneWriter {
     const Layer& layer = layers_[index];
     const Scene& scene = layer.scene;
     const LayerColors colors = colors_of(layers_, index);
-    Json json{{"name", layer.name},          {"color", hex(colors.layer)},
-              {"opacity", layer.opacity},    {"visible", layer.visible},
-              {"vertices", vertices(scene)}, {"edges", edges(scene)},
-              {"facets", facets(scene)},     {"volumes", volumes(scene, colors)},
-              {"spheres", spheres(scene)},   {"lines", lines(layer)},
+    Json json{{"name", layer.name},       {"color", hex(colors.layer)},        {"opacity", layer.opacity},
+              {"visible", layer.visible}, {"vertices", vertices(scene)},       {"edges", edges(scene)},
+              {"facets", facets(scene)},  {"volumes", volumes(scene, colors)}, {"lines", lines(layer)},
               {"photos", photos(layer)}};
     if (!layer.surface.none()) json["surface"] = surface(layer.surface);
     if (scene.box) json["box"] = {relative((*scene.box)[0]), relative((*scene.box)[1])};
@@ -88,7 +81,10 @@ class SceneWriter {
       json["motion"]["turns"] = layer.motion.turns;
       json["motion"]["pivot"] = relative(layer.motion.pivot);
     }
-    add_exact(scene, json);
+    if (options_.details) {
+      json["spheres"] = spheres(scene);
+      add_exact(scene, json);
+    }
     return json;
   }
 
@@ -180,41 +176,16 @@ class SceneWriter {
     return list;
   }
 
-  // begin holds, for each vertex and one more, where its dots, arcs, circles and regions begin.
   Json spheres(const Scene& scene) {
-    std::vector<std::uint32_t> begin{0, 0, 0, 0};
-    std::vector<std::int16_t> directions;
-    std::vector<std::int16_t> normals;
-    std::vector<std::int16_t> circle_normals;
-    std::vector<std::uint32_t> dots;
-    std::vector<std::uint32_t> arcs;
-    std::vector<std::uint32_t> circles;
-    std::vector<std::uint32_t> regions;
+    SphereArrays arrays;
     for (const SceneVertex& vertex : scene.vertices) {
-      if (vertex.index != kArtificial) {
-        const SphereDrawing drawing = draw_sphere_map(scene.source.complex(), VertexId{vertex.index});
-        for (const auto& dot : drawing.dots) {
-          push_unit(directions, dot.direction);
-          dots.insert(dots.end(), {dot.mark, dot.halfedge});
-        }
-        for (const auto& arc : drawing.arcs) {
-          push_unit(normals, arc.normal);
-          arcs.insert(arcs.end(), {arc.source, arc.target, arc.mark, arc.facet, arc.left, arc.right});
-        }
-        for (const auto& circle : drawing.circles) {
-          push_unit(circle_normals, circle.normal);
-          circles.insert(circles.end(), {circle.mark, circle.facet, circle.left, circle.right});
-        }
-        for (const auto& region : drawing.regions) regions.insert(regions.end(), {region.mark, region.volume});
-      }
-      begin.insert(begin.end(),
-                   {static_cast<std::uint32_t>(dots.size() / 2), static_cast<std::uint32_t>(arcs.size() / 6),
-                    static_cast<std::uint32_t>(circles.size() / 4), static_cast<std::uint32_t>(regions.size() / 2)});
+      arrays.add(vertex.index == kArtificial ? SphereDrawing{}
+                                             : draw_sphere_map(scene.source.complex(), VertexId{vertex.index}));
     }
-    return {{"begin", array("u32", begin)},     {"directions", array("i16", directions)},
-            {"dots", array("u32", dots)},       {"normals", array("i16", normals)},
-            {"arcs", array("u32", arcs)},       {"circleNormals", array("i16", circle_normals)},
-            {"circles", array("u32", circles)}, {"regions", array("u32", regions)}};
+    return {{"begin", array("u32", arrays.begin)},     {"directions", array("i16", arrays.directions)},
+            {"dots", array("u32", arrays.dots)},       {"normals", array("i16", arrays.normals)},
+            {"arcs", array("u32", arrays.arcs)},       {"circleNormals", array("i16", arrays.circle_normals)},
+            {"circles", array("u32", arrays.circles)}, {"regions", array("u32", arrays.regions)}};
   }
 
   Json lines(const Layer& layer) {
@@ -248,18 +219,14 @@ class SceneWriter {
     std::string planes;
     for (const SceneVertex& vertex : scene.vertices) {
       if (vertex.index != kArtificial) {
-        const Rational3 point = complex.points.rational(PointId{vertex.index});
-        points += to_string(point[0]) + ' ' + to_string(point[1]) + ' ' + to_string(point[2]);
+        points += point_text(complex, VertexId{vertex.index});
       }
       points += '\n';
       if (points.size() > options_.exact_text_limit) return;
     }
     for (const SceneFacet& facet : scene.facets) {
       if (facet.index != kArtificial) {
-        const PlaneId plane = complex.facets[FacetId{facet.index}].plane;
-        for (std::size_t i = 0; i < 4; ++i) {
-          planes += (i == 0 ? "" : " ") + complex.planes.oriented_coefficient(plane, i).get_str();
-        }
+        planes += plane_text(complex, FacetId{facet.index});
       }
       planes += '\n';
       if (points.size() + planes.size() > options_.exact_text_limit) return;

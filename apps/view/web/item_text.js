@@ -18,15 +18,13 @@ function exactNumber(text, about) {
   return `<span class="number">${escaped(text)}</span>${decimal}`;
 }
 
-function pointRows(page, layer, vertex) {
-  const line = layer.exact?.points()[vertex];
+function pointRows(page, layer, exact, vertex) {
+  const line = exact?.points()[vertex];
   const { xyz } = layer.vertices;
-  if (line) {
-    const about = (i) => xyz[3 * vertex + i] + page.center[i];
-    return line.split(" ").map((text, i) => row("xyz"[i], exactNumber(text, about(i)), true)).join("");
-  }
-  const near = [0, 1, 2].map((i) => (xyz[3 * vertex + i] + page.center[i]).toPrecision(7)).join(", ");
-  return row("point", `about ${near}`) + row("", layer.exact ? "on the visible box" : "exact texts were left out of this page");
+  const about = (i) => xyz[3 * vertex + i] + page.center[i] + (layer.offset?.[i] ?? 0);
+  if (line) return line.split(" ").map((text, i) => row("xyz"[i], exactNumber(text, about(i)), true)).join("");
+  const near = [0, 1, 2].map((i) => about(i).toPrecision(7)).join(", ");
+  return row("point", `about ${near}`) + row("", exact ? "on the visible box" : "exact texts were left out of this page");
 }
 
 function planeText(line) {
@@ -37,39 +35,41 @@ function planeText(line) {
 
 function volumeText(layer, v) {
   const { index, mark, bounded } = layer.volumes[v];
-  const name = index === null ? "" : `${index} `;
+  const name = index === null || layer.piece ? "" : `${index} `;
   return `${name}${markBadge(mark)}${bounded ? "" : " unbounded"}`;
 }
 
-const index = (i) => (i === ARTIFICIAL ? "none: made by the visible box or the section" : i);
-
-export function itemText(page, { kind, layer: l, item }) {
+export function itemText(page, { kind, layer: l, item, details }) {
   const layer = page.layers[l];
+  const exact = details?.exact ?? layer.exact;
+  // Items of pieces have numbers that mean nothing outside.
+  const index = (i) => (i === ARTIFICIAL ? "none: made by the visible box or the section" : layer.piece ? "" : i);
   let title = kind;
   let rows = row("layer", escaped(layer.name));
   if (kind === "vertex") {
-    const { vertices, spheres } = layer;
+    const { vertices } = layer;
+    const spheres = details?.spheres ?? layer.spheres;
     title = `Vertex ${index(vertices.index[item])}`;
-    const [dots, arcs, circles, regions] = [0, 1, 2, 3].map((k) => spheres.begin[4 * item + 4 + k] - spheres.begin[4 * item + k]);
-    rows += row("mark", markBadge(vertices.mark[item])) + pointRows(page, layer, item);
-    rows += row("sphere map", [plural(dots, "svertex").replace("svertexs", "svertices"), plural(arcs, "sedge"),
+    rows += row("mark", markBadge(vertices.mark[item])) + pointRows(page, layer, exact, item);
+    const [dots, arcs, circles, regions] = [0, 1, 2, 3].map((k) => (spheres ? spheres.begin[4 * item + 4 + k] - spheres.begin[4 * item + k] : 0));
+    if (spheres) rows += row("sphere map", [plural(dots, "svertex").replace("svertexs", "svertices"), plural(arcs, "sedge"),
       plural(circles, "sloop"), plural(regions, "sface")].join(", "));
     if (isolated(vertices.flags[item])) rows += row("", "isolated");
   } else if (kind === "edge") {
     const { edges } = layer;
     title = `Edge ${index(edges.index[item])}`;
     rows += row("mark", markBadge(edges.mark[item]));
-    if (edges.twin[item] !== ARTIFICIAL) rows += row("halfedges", `${edges.index[item]}, ${edges.twin[item]}`);
+    if (edges.twin[item] !== ARTIFICIAL && !layer.piece) rows += row("halfedges", `${edges.index[item]}, ${edges.twin[item]}`);
     if (isolated(edges.flags[item])) rows += row("", "bounds no facet");
     for (const end of [0, 1]) {
       const vertex = edges.ends[2 * item + end];
-      rows += row(end ? "to" : "from", `vertex ${index(layer.vertices.index[vertex])}`) + pointRows(page, layer, vertex);
+      rows += row(end ? "to" : "from", `vertex ${index(layer.vertices.index[vertex])}`) + pointRows(page, layer, exact, vertex);
     }
   } else {
     const { facets } = layer;
     title = `Facet ${index(facets.index[item])}`;
     rows += row("mark", markBadge(facets.mark[item]));
-    const plane = layer.exact?.planes()[item];
+    const plane = exact?.planes()[item];
     if (plane) rows += row("plane", `<span class="number">${escaped(planeText(plane))}</span>`, true);
     rows += row("above", volumeText(layer, facets.above[item])) + row("below", volumeText(layer, facets.below[item]));
   }

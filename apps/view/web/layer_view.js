@@ -249,15 +249,19 @@ export class LayerView {
       facetMaterial(shared, this.opacity, layer.surface !== undefined, image),
     );
     this.facets.frustumCulled = false;
-    this.edges = lineMesh(edgeSegments(layer, length, thin && !alone), shared);
-    this.vertices = dotMesh(vertexDots(layer, length), shared);
-    if (thin) [this.edges, this.vertices].forEach(shineThrough);
+    const finish = (mesh) => {
+      this.group.add(thin ? shineThrough(mesh) : mesh);
+      return mesh;
+    };
+    this.makeEdges = () => finish(lineMesh(edgeSegments(layer, length, thin && !alone), shared));
+    this.makeVertices = () => finish(dotMesh(vertexDots(layer, length), shared));
+    this.shown = { edges: false, vertices: false };
     this.extras = new THREE.Group();
     const segments = extraSegments(layer);
     if (layer.box) segments.push(...boxSegments(layer.box));
-    this.extras.add(shineThrough(lineMesh(segments, shared)));
+    if (segments.length > 0) this.extras.add(shineThrough(lineMesh(segments, shared)));
     for (const photo of layer.photos) this.extras.add(photoMesh(photo, onLoad));
-    this.group.add(this.facets, this.edges, this.vertices, this.extras);
+    this.group.add(this.facets, this.extras);
     this.group.visible = layer.visible;
     this.setOpacity(layer.opacity);
   }
@@ -284,8 +288,18 @@ export class LayerView {
   show(facets, edges, vertices) {
     this.wanted = facets;
     this.facets.visible = facets && this.opacity.value > 0.005;
-    this.edges.visible = edges;
-    this.vertices.visible = vertices;
+    this.shown = { edges, vertices };
+    // Made when they are seen first: of large meshes they seldom are.
+    if (edges) this.edges ??= this.makeEdges();
+    if (vertices) this.vertices ??= this.makeVertices();
+    if (this.edges) this.edges.visible = edges;
+    if (this.vertices) this.vertices.visible = vertices;
+  }
+
+  // Puts it where its coordinates begin.
+  place() {
+    if (this.layer.offset) this.group.position.set(...this.layer.offset);
+    this.group.updateMatrix();
   }
 
   // Moves the layer to where its motion is at a time.

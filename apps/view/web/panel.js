@@ -6,7 +6,9 @@ import { INK_HEX, ORANGE_HEX } from "./layer_view.js";
 
 export const byId = (id) => document.getElementById(id);
 
-function layerRow(view, onChange) {
+// views: those of one name, of which the first one speaks for all.
+function layerRow(views, onChange) {
+  const [view] = views;
   const row = document.createElement("div");
   row.className = "layer";
   const box = Object.assign(document.createElement("input"), { type: "checkbox", checked: view.layer.visible });
@@ -22,11 +24,11 @@ function layerRow(view, onChange) {
   box.setAttribute("aria-label", `Show ${view.layer.name}`);
   name.addEventListener("click", () => box.click());
   box.addEventListener("change", () => {
-    view.group.visible = box.checked;
+    for (const one of views) one.group.visible = box.checked;
     onChange();
   });
   opacity.addEventListener("input", () => {
-    view.setOpacity(Number(opacity.value));
+    for (const one of views) one.setOpacity(Number(opacity.value));
     onChange();
   });
   row.append(box, name, opacity);
@@ -34,7 +36,14 @@ function layerRow(view, onChange) {
 }
 
 export function makeLayerRows(views, onChange) {
-  byId("layers").replaceChildren(...views.map((view) => layerRow(view, onChange)));
+  // The pieces of a layer have one row.
+  const rows = new Map();
+  for (const view of views) {
+    const key = view.layer.piece ? view.layer.name : view;
+    if (rows.has(key)) rows.get(key).push(view);
+    else rows.set(key, [view]);
+  }
+  byId("layers").replaceChildren(...[...rows.values()].map((some) => layerRow(some, onChange)));
 }
 
 const MOST_VOLUMES = 12; // that the legend names one by one

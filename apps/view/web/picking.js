@@ -108,7 +108,7 @@ export class Picker {
     let best = null;
     let reach = VERTEX_REACH;
     this.views.forEach((view, layer) => {
-      if (!view.group.visible || !view.vertices.visible) return;
+      if (!view.group.visible || !view.shown.vertices) return;
       const projected = this.#projectAll(view);
       view.layer.vertices.flags.forEach((flags, item) => {
         const depth = projected[3 * item + 2];
@@ -126,7 +126,7 @@ export class Picker {
     let best = null;
     let reach = EDGE_REACH;
     this.views.forEach((view, layer) => {
-      if (!view.group.visible || !view.edges.visible) return;
+      if (!view.group.visible || !view.shown.edges) return;
       const { ends } = view.layer.edges;
       const projected = this.#projectAll(view);
       for (let item = 0; 2 * item < ends.length; ++item) {

@@ -84,32 +84,39 @@ export class Section {
 
   // Caps are made at the first section: most visitors never ask for one.
   #makeCaps() {
-    this.views.forEach((view) => {
+    const pieces = new Map(); // views by the name of their layer: only together their boundaries are closed
+    for (const view of this.views) {
       const { layer } = view;
       const selected = layer.volumes.flatMap((volume, v) => (volume.mark ? [v] : []));
+      if (layer.piece) {
+        if (!pieces.has(layer.name)) pieces.set(layer.name, []);
+        pieces.get(layer.name).push([view, boundaryGeometry(layer, (v) => selected.includes(v))]);
+        continue;
+      }
       const groups = selected.length <= MOST_CAPS ? selected.map((v) => [v]) : [selected];
       for (const group of groups) {
         const inside = (v) => group.includes(v);
         const many = group.length > 1 ? new Set(group) : null;
-        this.#makeCap(view, boundaryGeometry(layer, many ? (v) => many.has(v) : inside),
+        this.#makeCap([[view, boundaryGeometry(layer, many ? (v) => many.has(v) : inside)]],
           group.length > 1 ? layer.color : layer.volumes[group[0]].color);
       }
-    });
+    }
+    for (const some of pieces.values()) this.#makeCap(some, some[0][0].layer.color);
   }
 
-  #makeCap(view, geometry, color) {
+  // solids: [view, geometry], which bound what the cap fills.
+  #makeCap(solids, color) {
     const order = 10 + 3 * this.caps.length;
-    const parts = [
-      new THREE.Mesh(geometry, stencilMaterial(this.shared, THREE.BackSide, THREE.IncrementWrapStencilOp)),
-      new THREE.Mesh(geometry, stencilMaterial(this.shared, THREE.FrontSide, THREE.DecrementWrapStencilOp)),
-      new THREE.Mesh(new THREE.PlaneGeometry(8 * this.radius, 8 * this.radius), capMaterial(this.shared, color)),
-    ];
-    parts.forEach((part, i) => {
-      part.renderOrder = order + i;
-      part.frustumCulled = false;
-    });
-    parts[2].onAfterRender = (renderer) => renderer.clearStencil();
-    this.caps.push({ view, parts, cap: parts[2] });
+    const back = stencilMaterial(this.shared, THREE.BackSide, THREE.IncrementWrapStencilOp);
+    const front = stencilMaterial(this.shared, THREE.FrontSide, THREE.DecrementWrapStencilOp);
+    const walls = solids.map(([view, geometry]) => ({ view, meshes: [back, front].map((material) => new THREE.Mesh(geometry, material)) }));
+    const cap = new THREE.Mesh(new THREE.PlaneGeometry(8 * this.radius, 8 * this.radius), capMaterial(this.shared, color));
+    for (const { meshes } of walls) meshes.forEach((mesh, i) => (mesh.renderOrder = order + i));
+    cap.renderOrder = order + 2;
+    cap.onAfterRender = (renderer) => renderer.clearStencil();
+    const parts = [...walls.flatMap(({ meshes }) => meshes), cap];
+    for (const part of parts) part.frustumCulled = false;
+    this.caps.push({ walls, cap, parts });
     this.group?.add(...parts);
   }
 
@@ -124,14 +131,28 @@ export class Section {
     if (this.on) section.value.set(this.normal.x, this.normal.y, this.normal.z, -distance);
     else section.value.set(0, 0, 0, -1);
     if (this.on && this.caps.length === 0) this.#makeCaps();
-    for (const { view, parts, cap } of this.caps) {
-      for (const part of parts) part.visible = this.on && view.group.visible && view.facets.visible;
-      for (const part of [parts[0], parts[1]]) {
-        part.position.copy(view.group.position);
-        part.quaternion.copy(view.group.quaternion);
+    for (const { walls, cap } of this.caps) {
+      for (const { view, meshes } of walls) {
+        for (const mesh of meshes) {
+          mesh.visible = this.on && view.group.visible && view.facets.visible;
+          mesh.position.copy(view.group.position);
+          mesh.quaternion.copy(view.group.quaternion);
+        }
       }
+      cap.visible = walls.some(({ meshes }) => meshes[0].visible);
       cap.position.copy(this.normal).multiplyScalar(distance);
       cap.quaternion.setFromUnitVectors(new THREE.Vector3(0, 0, 1), this.normal);
+    }
+  }
+
+  // Frees what the graphics card has of it.
+  dispose() {
+    this.group.removeFromParent();
+    for (const { parts } of this.caps) {
+      for (const part of parts) {
+        part.geometry.dispose();
+        part.material.dispose();
+      }
     }
   }
 

@@ -29,6 +29,7 @@ export class Viewer {
     this.views = [];
     this.selected = null;
     this.onSelect = () => {}; // told of every item that is selected, and of null
+    this.details = null; // async (item): {exact, spheres} of its layer, of which only the item's need be there
     this.control = new CameraControl(this.canvas, this.camera, {
       onChange: () => this.requestDraw(),
       onTap: (x, y) => this.select(this.picker.pick(x, y)),
@@ -40,13 +41,16 @@ export class Viewer {
     this.reset();
   }
 
-  // Shows a scene in place of the one before. The eye stays where it is in space; layers of the same name stay switched on
+  // Shows a scene in place of the one before, of which layers that are the same objects stay drawn. The eye stays where it is in space; layers of the same name stay switched on
   // or off, and as transparent, as they are.
   show(page) {
     const before = new Map(this.views.map((view) => [view.layer.name, view]));
+    const drawn = new Map(this.views.map((view) => [view.layer, view]));
     this.select(null);
-    if (this.section) this.scene.remove(this.section.group);
+    if (this.section) this.section.dispose();
+    const stays = new Set(page.layers);
     for (const view of this.views) {
+      if (stays.has(view.layer)) continue;
       this.scene.remove(view.group);
       view.dispose();
     }
@@ -55,12 +59,14 @@ export class Viewer {
     const [low, high] = page.bounds ?? [[-1, -1, -1], [1, 1, 1]];
     this.radius = Math.hypot(...high.map((x, i) => x - low[i])) / 2 || 1;
     const alone = page.layers.length === 1;
-    for (const layer of page.layers) {
+    this.views = page.layers.map((layer) => {
       const same = before.get(layer.name);
       if (same) Object.assign(layer, { visible: same.group.visible, opacity: same.opacity.value });
-    }
-    this.views = page.layers.map((layer) => new LayerView(layer, this.shared, this.radius, alone, () => this.requestDraw()));
-    for (const view of this.views) this.scene.add(view.group);
+      const view = drawn.get(layer) ?? new LayerView(layer, this.shared, this.radius, alone, () => this.requestDraw());
+      if (!drawn.has(layer)) this.scene.add(view.group);
+      view.place();
+      return view;
+    });
     this.section = new Section(this.views, this.shared, this.radius, this.section);
     this.section.addTo(this.scene);
     this.picker = new Picker(this.views, this.section, this.camera, this.canvas);
@@ -143,11 +149,25 @@ export class Viewer {
     if (this.highlight) this.scene.remove(this.highlight);
     this.highlight = null;
     if (item) {
-      byId("item-text").innerHTML = itemText(this.page, item);
       this.#showHighlight(item);
-      this.#showSphere(item);
+      this.#showItem(item);
+      this.#findDetails(item);
     }
     this.requestDraw();
+  }
+
+  #showItem(item) {
+    byId("item-text").innerHTML = itemText(this.page, item);
+    this.#showSphere(item);
+  }
+
+  // Of scenes that came without: asked for where there is somebody to ask.
+  async #findDetails(item) {
+    if (!this.details || this.page.layers[item.layer].exact) return;
+    const details = await this.details(item);
+    if (!details || this.selected !== item) return;
+    item.details = details;
+    this.#showItem(item);
   }
 
   #showHighlight({ kind, layer, item }) {
@@ -183,15 +203,16 @@ export class Viewer {
     return [...sides.values()];
   }
 
-  #showSphere({ kind, layer, item }) {
-    const { spheres, vertices } = this.page.layers[layer];
-    const any = kind === "vertex" && spheres.begin[4 * item + 7] > spheres.begin[4 * item + 3];
+  #showSphere({ kind, layer, item, details }) {
+    const { vertices } = this.page.layers[layer];
+    const spheres = details?.spheres ?? this.page.layers[layer].spheres;
+    const any = kind === "vertex" && spheres && spheres.begin[4 * item + 7] > spheres.begin[4 * item + 3];
     byId("sphere").hidden = !any;
     if (!any) return;
     this.sphere ??= new SphereView(byId("sphere-view"), (pick) => {
       byId("sphere-text").innerHTML = sphereItemText(this.sphere.map, pick) || this.sphereHint;
     });
-    this.sphere.show(this.page.layers[layer], item, this.camera, this.control.target);
+    this.sphere.show({ ...this.page.layers[layer], spheres }, item, this.camera, this.control.target);
     this.sphereHint = `Centre ${markBadge(vertices.mark[item])} Turn it; click an item of it.`;
     byId("sphere-text").innerHTML = this.sphereHint;
   }

@@ -23,14 +23,14 @@ using Kind = TileNode::Kind;
 
 // Calls visit(leaf, region) for every leaf.
 template <typename Visit>
-void for_each_leaf(const TileRef& tree, const Region& region, const Visit& visit) {
+void visit_leaves(const TileRef& tree, const Region& region, const Visit& visit) {
   if (tree.node->kind != Kind::kCut) {
     visit(tree, region);
     return;
   }
   const auto [low, high] = children(tree);
-  for_each_leaf(low, region.below(tree.node->plane), visit);
-  for_each_leaf(high, region.above(tree.node->plane), visit);
+  visit_leaves(low, region.below(tree.node->plane), visit);
+  visit_leaves(high, region.above(tree.node->plane), visit);
 }
 
 // The same for those whose regions hold the point.
@@ -68,6 +68,10 @@ Location location_of_kind(Location::Kind kind, LabelId mark) {
 }
 
 }  // namespace
+
+void for_each_leaf(const TileRef& tree, const std::function<void(const TileRef& leaf, const Region& region)>& visit) {
+  visit_leaves(tree, Region{}, visit);
+}
 
 Location PyramidInTiles::location(const Monitor& monitor) const {
   const SphereMapView view = map.view();
@@ -120,7 +124,7 @@ void enclose(std::optional<Corners>& box, const Corners& other) {
 }
 
 // `set`: what its node holds, if it is a tile.
-std::optional<Rational> volume_of_leaf(const TileRef& leaf, const Polyhedron& set, const Region& region) {
+std::optional<Rational> volume_of_set(const TileRef& leaf, const Polyhedron& set, const Region& region) {
   if (leaf.node->kind != Kind::kUniform) return volume(leaf.complemented ? complement(set) : set);
   if (leaf.node->mark == 0) return Rational(0);
   if (!bounded(region)) return std::nullopt;
@@ -151,10 +155,14 @@ Rational sum_of(std::vector<Rational> parts) {
 
 }  // namespace
 
+std::optional<Rational> volume_of_leaf(const TileRef& leaf, const Region& region) {
+  return volume_of_set(leaf, leaf.node->kind == Kind::kUniform ? Polyhedron() : leaf.node->set(), region);
+}
+
 ExtentOfTiles extent_of_tiles(const TileRef& tree, bool with_volume, bool with_box, const Monitor& monitor) {
   std::vector<std::pair<TileRef, Region>> leaves;
-  for_each_leaf(tree, Region{},
-                [&leaves](const TileRef& leaf, const Region& region) { leaves.emplace_back(leaf, region); });
+  visit_leaves(tree, Region{},
+               [&leaves](const TileRef& leaf, const Region& region) { leaves.emplace_back(leaf, region); });
   std::atomic<bool> finite = with_volume;
   std::atomic<bool> bounded = true;
   constexpr std::size_t kChunk = 16;
@@ -170,7 +178,7 @@ ExtentOfTiles extent_of_tiles(const TileRef& tree, bool with_volume, bool with_b
       const auto& [leaf, region] = leaves[i];
       const Polyhedron set = leaf.node->kind == Kind::kUniform ? Polyhedron() : leaf.node->set();
       if (finite) {
-        const std::optional<Rational> volume = volume_of_leaf(leaf, set, region);
+        const std::optional<Rational> volume = volume_of_set(leaf, set, region);
         if (volume) part.volume += *volume;
         if (!volume) finite = false;
       }

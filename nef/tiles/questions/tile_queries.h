@@ -3,9 +3,19 @@
 // Questions that a tree of tiles answers without being glued.
 #pragma once
 
+#include <functional>
+#include <optional>
+
 #include "nef/tiles/tile_tree.h"
 
 namespace nef {
+
+/// Calls visit(leaf, region) for every leaf of a tree over all of space, uniform ones included, always in the same
+/// order. Regions refer to planes of the tree.
+void for_each_leaf(const TileRef& tree, const std::function<void(const TileRef& leaf, const Region& region)>& visit);
+
+/// The volume of the set of a leaf in its region; nothing if it is infinite.
+std::optional<Rational> volume_of_leaf(const TileRef& leaf, const Region& region);
 
 /// The local pyramid of the whole set at a point, with planes of its own.
 struct PyramidInTiles {

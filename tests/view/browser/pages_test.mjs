@@ -91,9 +91,9 @@ const tests = {
     const after = await browser.evaluate("nefViewer.camera.position.toArray()");
     assert.ok(Math.hypot(...before.map((x, i) => x - after[i])) > 0.1);
     await browser.key("e");
-    assert.equal(await browser.evaluate("nefViewer.views[0].edges.visible"), false);
+    assert.equal(await browser.evaluate("nefViewer.views[0].shown.edges"), false);
     await browser.key("e");
-    assert.equal(await browser.evaluate("nefViewer.views[0].edges.visible"), true);
+    assert.equal(await browser.evaluate("nefViewer.views[0].shown.edges"), true);
   },
 
   async "fingers tap, turn and zoom"(browser) {

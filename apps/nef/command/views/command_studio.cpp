@@ -21,6 +21,8 @@ struct StudioFlags {
   unsigned seconds = 300;
   std::size_t megabytes = 4096;
   bool no_browser = false;
+  bool run = false;
+  std::string output;
 };
 
 void add_studio_options(CLI::App& command, Session&, StudioFlags& flags) {
@@ -38,6 +40,9 @@ void add_studio_options(CLI::App& command, Session&, StudioFlags& flags) {
       ->check(CLI::Range(1, 1000000));
   command.add_option("--memory", flags.megabytes, "The most MiB of memory that computations take (4096)")
       ->check(CLI::Range(64, 100000000));
+  command.add_flag("--run", flags.run, "Compute the .nefstudio file that is named, print the report, and end: no page");
+  command.add_option("-o,--output", flags.output, "With --run: write the result to this file, in any format")
+      ->type_name("FILE");
   command.footer(
       "Prints the address of a page, with a token that lets only this user in, and opens it in the browser. "
       "Everything\n"
@@ -47,6 +52,8 @@ void add_studio_options(CLI::App& command, Session&, StudioFlags& flags) {
 // Takes the place of this process, so that signals reach the server.
 void run_studio(Session& session, const StudioFlags& flags) {
   const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "nef-studio";
+  if (!flags.run && !flags.output.empty()) throw InputError("-o goes with --run; pages export by their own button");
+  if (flags.run && flags.files.size() != 1) throw InputError("--run computes one .nefstudio file; name it");
   std::vector<std::string> words{program.string(),
                                  flags.root,
                                  std::to_string(flags.port),
@@ -54,6 +61,15 @@ void run_studio(Session& session, const StudioFlags& flags) {
                                  std::to_string(flags.seconds),
                                  std::to_string(flags.megabytes),
                                  flags.no_browser ? "0" : "1"};
+  if (flags.run) {
+    words = {program.string(),
+             "--run",
+             flags.output,
+             flags.root,
+             std::to_string(session.monitor.threads()),
+             std::to_string(flags.seconds),
+             std::to_string(flags.megabytes)};
+  }
   words.insert(words.end(), flags.files.begin(), flags.files.end());
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());

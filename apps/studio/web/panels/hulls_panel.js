@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Hulls: a scene of cameras and masks, its views switched on and off.
-import { shellLine, showCommands } from "./commands.js";
-import { approximately } from "./exact.js";
-import { fillNotes, fillTable, measureRows, secondsText } from "./measures.js";
-import { ServerError } from "./server.js";
-import { byId } from "../../view/web/panel.js";
+import { shellLine, showCommands } from "../commands.js";
+import { approximately } from "../exact.js";
+import { fillNotes, fillTable, measureRows, secondsText } from "../measures.js";
+import { offerScenes } from "./scene_list.js";
+import { ServerError } from "../server.js";
+import { byId } from "../../../view/web/panel.js";
 
 const HULLS_DELAY = 30;
 
@@ -16,6 +17,7 @@ export class HullsPanel {
     this.sets = [];
     this.scene = "";
     this.off = new Set(); // numbers of views
+    this.overlay = null; // the number of the view whose image is shown
     byId("hulls-open").addEventListener("click", () => this.openFile(byId("hulls-file").value));
     byId("hulls-compute").addEventListener("click", () => this.compute());
     byId("hulls-simplify").addEventListener("input", () => {
@@ -24,9 +26,22 @@ export class HullsPanel {
     });
     byId("hulls-slider").addEventListener("input", () => {
       byId("hulls-simplify").value = byId("hulls-slider").value;
-      this.#edited();
+      this.changed();
+      this.#showCommands();
+      this.computing.next(() => this.compute());
     });
-    byId("hulls-threshold").addEventListener("input", () => this.#edited(300));
+    byId("hulls-threshold").addEventListener("input", () => {
+      byId("hulls-level").value = approximately(byId("hulls-threshold").value) || 0;
+      this.#edited(300);
+    });
+    byId("hulls-level").addEventListener("input", () => {
+      byId("hulls-threshold").value = byId("hulls-level").value;
+      this.changed();
+      this.#showCommands();
+      this.computing.next(() => this.compute());
+    });
+    byId("hulls-mask").addEventListener("input", () => this.#edited(500));
+    byId("hulls-colors").addEventListener("change", () => this.#edited());
     byId("hulls-residuals").addEventListener("change", () => this.#edited());
     byId("hulls-all").addEventListener("click", () => {
       this.off.clear();
@@ -38,31 +53,31 @@ export class HullsPanel {
 
   get state() {
     return { scene: this.scene, off: [...this.off].sort((a, b) => a - b), simplify: byId("hulls-simplify").value.trim(),
-      threshold: byId("hulls-threshold").value.trim(), residuals: byId("hulls-residuals").checked };
+      threshold: byId("hulls-threshold").value.trim(), mask: byId("hulls-mask").value.trim(),
+      residuals: byId("hulls-residuals").checked, colors: byId("hulls-colors").value };
   }
 
-  set state({ scene = "", off = [], simplify = "1", threshold = "", residuals = false }) {
+  set state({ scene = "", off = [], simplify = "1", threshold = "", mask = "", residuals = false, colors = "plain" }) {
     this.scene = scene;
     this.off = new Set(off);
     byId("hulls-simplify").value = simplify;
     byId("hulls-slider").value = approximately(simplify);
     byId("hulls-threshold").value = threshold;
+    byId("hulls-level").value = approximately(threshold) || 0;
+    byId("hulls-mask").value = mask;
     byId("hulls-residuals").checked = residuals;
+    byId("hulls-colors").value = colors;
     this.#showScene();
   }
 
   offerFiles(files) {
-    const select = byId("hulls-file");
-    const before = select.value;
-    const scenes = files.map(({ name }) => name).filter((name) => name.endsWith(".json"));
-    select.replaceChildren(...scenes.map((name) => new Option(name, name)));
-    if (scenes.includes(before)) select.value = before;
-    byId("hulls-open").disabled = scenes.length === 0;
+    offerScenes(byId("hulls-file"), byId("hulls-open"), files);
   }
 
   async openFile(file) {
     this.scene = file;
     this.off.clear();
+    this.overlay = null;
     byId("hulls-views").replaceChildren();
     this.#showScene();
     this.changed();
@@ -92,7 +107,7 @@ export class HullsPanel {
     if (!this.scene) return;
     let done;
     try {
-      done = await this.computing.run(this.name, this.state);
+      done = await this.computing.run(this.name, { ...this.state, overlay: this.overlay });
     } catch (error) {
       if (!(error instanceof ServerError)) throw error;
       byId("hulls-error").textContent = error.message;
@@ -105,6 +120,9 @@ export class HullsPanel {
       ["Time", `outlines ${secondsText(report.outlines_s)}, hull ${secondsText(report.op_s)}, ${secondsText(seconds)} until shown`]]);
     fillNotes(byId("hulls-notes"), report.notes);
     this.#showViews(report.views);
+    this.#showOverlay(report);
+    const { suspect } = report;
+    byId("hulls-suspect").textContent = suspect === null ? "" : `${report.views[suspect].name} disagrees with the other views.`;
     this.sets = ["result"];
     this.exportForm.offer(this.sets);
   }
@@ -123,8 +141,14 @@ export class HullsPanel {
         });
         const label = document.createElement("label");
         const residual = Object.assign(document.createElement("span"), { className: "residual" });
+        const show = Object.assign(document.createElement("button"), { type: "button", textContent: "Image" });
+        show.setAttribute("aria-label", `Image of ${name}`);
+        show.addEventListener("click", () => {
+          this.overlay = this.overlay === number ? null : number;
+          this.compute();
+        });
         label.append(box, ` ${name} `, residual);
-        item.append(label);
+        item.append(label, show);
         return item;
       }));
     }
@@ -136,6 +160,14 @@ export class HullsPanel {
     });
   }
 
+  // The image of a view with its outline (red), the hull over it (blue), and what the hull lacks of the outline (yellow).
+  #showOverlay({ overlay, views }) {
+    byId("hulls-overlay").hidden = !overlay;
+    if (!overlay) return;
+    byId("hulls-overlay-image").src = overlay.url;
+    byId("hulls-overlay-name").textContent = views[overlay.view].name;
+  }
+
   #showScene() {
     byId("hulls-title").textContent = this.scene || "Open a scene of cameras and masks (.json) of your folder above";
     byId("hulls-compute").disabled = !this.scene;
@@ -143,10 +175,11 @@ export class HullsPanel {
   }
 
   #showCommands() {
-    const { scene, off, simplify, threshold } = this.state;
+    const { scene, off, simplify, threshold, mask } = this.state;
     const name = scene || "scene.json";
-    const how = [...(simplify && simplify !== "0" ? ["--simplify", simplify] : []), ...(threshold ? ["--threshold", threshold] : [])];
+    const how = [...(simplify && simplify !== "0" ? ["--simplify", simplify] : []), ...(threshold ? ["--threshold", threshold] : []), ...(mask ? ["--mask", mask] : [])];
     const python = [JSON.stringify(name), ...(simplify && simplify !== "0" ? [`tolerance=${simplify}`] : []),
+      ...(mask ? [`mask=${JSON.stringify(mask)}`] : []),
       ...(threshold ? [`threshold=${/^[\d.]+$/.test(threshold) ? threshold : JSON.stringify(threshold)}`] : [])];
     const without = off.length > 0 ? "# all views: take those that are off out of the scene's file\n" : "";
     showCommands(byId("hulls-commands"), [

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Planner: a scene of a file, its ends and obstacles moved by numbers or by the mouse, and the answer.
-import { shellLine, showCommands } from "./commands.js";
-import { addDecimals, approximately, decimalNear } from "./exact.js";
-import { fillNotes, fillTable, secondsText } from "./measures.js";
-import { ask, ServerError } from "./server.js";
-import { byId } from "../../view/web/panel.js";
+import { shellLine, showCommands } from "../commands.js";
+import { addDecimals, approximately, decimalNear } from "../exact.js";
+import { fillNotes, fillTable, secondsText } from "../measures.js";
+import { offerScenes } from "./scene_list.js";
+import { ask, ServerError } from "../server.js";
+import { byId } from "../../../view/web/panel.js";
 
 const PLANNER_DELAY = 60;
 const EXAMPLE = JSON.stringify({
@@ -89,12 +90,7 @@ export class PlannerPanel {
 
   // Names of files that may be scenes.
   offerFiles(files) {
-    const select = byId("planner-file");
-    const before = select.value;
-    const scenes = files.map(({ name }) => name).filter((name) => name.endsWith(".json"));
-    select.replaceChildren(...scenes.map((name) => new Option(name, name)));
-    if (scenes.includes(before)) select.value = before;
-    byId("planner-open").disabled = scenes.length === 0;
+    offerScenes(byId("planner-file"), byId("planner-open"), files);
   }
 
   async openFile(file) {
@@ -148,6 +144,12 @@ export class PlannerPanel {
     this.computing.soon(() => this.compute(), delay);
   }
 
+  #dragged() {
+    this.changed();
+    this.#showCommands();
+    this.computing.next(() => this.compute(true));
+  }
+
   #movesThatMove() {
     return Object.fromEntries(Object.entries(this.moves).filter(([, move]) => move.some((x) => x.trim() !== "0")));
   }
@@ -159,11 +161,11 @@ export class PlannerPanel {
     return moves;
   }
 
-  async compute() {
+  async compute(dragged = false) {
     const { text, folder, start, goal, free } = this.state;
     let done;
     try {
-      done = await this.computing.run(this.name, { scene: text, folder, start, goal, free, moves: this.#movesWanted() });
+      done = await this.computing.run(this.name, { scene: text, folder, start, goal, free, moves: this.#movesWanted(), dragged });
     } catch (error) {
       if (!(error instanceof ServerError)) throw error;
       this.#showError(error.message);
@@ -257,10 +259,12 @@ export class PlannerPanel {
     const before = this.fields[field].map(({ value }) => value || "0");
     const plane = viewer.dragPlane(x, y, hit.depth);
     const begin = plane.at(x, y);
+    let moved = false;
     return {
       drag: (toX, toY) => {
         const now = plane.at(toX, toY);
         if (!now) return;
+        moved = true;
         const numbers = before.map((number, i) => (i === plane.axis ? number
           : addDecimals(number, decimalNear(now[i] - begin[i], plane.pixel))));
         this.#setPoint(field, numbers);
@@ -268,9 +272,10 @@ export class PlannerPanel {
         const view = viewer.views.find(({ layer }) => layer.name === name);
         if (view && !view.layer.motion) view.group.position.set(...numbers.map((number, i) => approximately(number) - approximately(before[i])));
         viewer.requestDraw();
-        this.#edited(0);
+        this.#dragged();
       },
-      drop: () => {},
+      // While it is dragged, any path will do; now a short one is looked for.
+      drop: () => moved && this.#edited(0),
     };
   }
 }

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Sets: an expression and the set that it describes, with what was there before.
-import { pythonText, shellLine, showCommands } from "./commands.js";
-import { ExpressionEditor } from "./editor.js";
-import { fillNotes, fillTable, measureRows, secondsText } from "./measures.js";
-import { ServerError } from "./server.js";
-import { byId } from "../../view/web/panel.js";
+import { pythonText, shellLine, showCommands } from "../commands.js";
+import { ExpressionEditor } from "../editor.js";
+import { fillNotes, fillTable, measureRows, secondsText } from "../measures.js";
+import { ServerError } from "../server.js";
+import { PartMover } from "../parts/part_mover.js";
+import { byId } from "../../../view/web/panel.js";
 
 const SET_EXAMPLES = [
   ["A box without a ball", "box(0,0,0, 2,2,2) - ball(6/5, 6)"],
@@ -22,7 +23,7 @@ const MOST_VERSIONS = 200;
 
 export class SetsPanel {
   // computing: see there; exportForm: where results go; changed(): the state is to be kept.
-  constructor({ computing, exportForm, language, changed }) {
+  constructor({ computing, exportForm, language, changed, viewer }) {
     Object.assign(this, { computing, exportForm, changed });
     this.name = "sets";
     this.sets = [];
@@ -32,12 +33,28 @@ export class SetsPanel {
       label: "Expression of the set",
       functions: language.functions,
       onChange: () => {
+        this.mover.forget();
         this.changed();
         this.#showCommands();
         if (byId("sets-live").checked) computing.soon(() => this.compute(), SETS_DELAY);
       },
     });
     this.editor.text = SET_EXAMPLES[0][1];
+    this.mover = new PartMover({
+      editor: this.editor,
+      viewer,
+      onChange: (dragged) => {
+        this.changed();
+        this.#showCommands();
+        computing.next(() => this.compute(!dragged));
+      },
+      onPart: () => computing.next(() => this.compute(false)),
+    });
+    byId("sets-crossings").addEventListener("change", () => {
+      this.changed();
+      this.#showCommands();
+      this.compute(false);
+    });
     const examples = byId("sets-example");
     examples.append(...SET_EXAMPLES.map(([name], i) => new Option(name, i)));
     examples.addEventListener("change", () => {
@@ -56,11 +73,13 @@ export class SetsPanel {
   }
 
   get state() {
-    return { text: this.editor.text, live: byId("sets-live").checked };
+    return { text: this.editor.text, live: byId("sets-live").checked, crossings: byId("sets-crossings").value };
   }
 
-  set state({ text = "", live = true }) {
+  set state({ text = "", live = true, crossings = "union" }) {
     this.editor.text = text;
+    this.mover.forget();
+    byId("sets-crossings").value = crossings;
     byId("sets-live").checked = live;
     this.#showCommands();
   }
@@ -68,6 +87,7 @@ export class SetsPanel {
   // Another text in place of the one that is there.
   use(text) {
     this.editor.text = text;
+    this.mover.forget();
     this.changed();
     this.#showCommands();
     return this.compute();
@@ -84,9 +104,10 @@ export class SetsPanel {
     const { text } = this.editor;
     let done;
     try {
-      done = await this.computing.run(this.name, { text });
+      done = await this.computing.run(this.name, { text, part: this.mover.wanted, crossings: byId("sets-crossings").value });
     } catch (error) {
       if (!(error instanceof ServerError)) throw error;
+      this.#askAboutCrossings([error.message]);
       if (this.editor.text === text) this.editor.showError({ offset: error.field === "text" ? error.offset : 0, message: error.message });
       return;
     }
@@ -96,9 +117,23 @@ export class SetsPanel {
     fillTable(byId("sets-measures"), [...measureRows(report.result),
       ["Time", `${secondsText(report.op_s)} to compute, ${secondsText(seconds)} until shown`]]);
     fillNotes(byId("sets-notes"), report.notes);
+    this.#askAboutCrossings(report.notes);
+    this.mover.found(report.part);
     this.sets = ["result"];
     this.exportForm.offer(this.sets);
     if (remember) this.#remember(text);
+  }
+
+  // "6 pairs of faces cross": whoever sees that may choose what is inside then. The choice stays in sight once it was made.
+  #askAboutCrossings(lines) {
+    const found = lines.map((line) => /\d+ pairs? of faces cross(es)?/.exec(line)?.[0]).find((words) => words);
+    const chosen = byId("sets-crossings").value !== "union";
+    byId("sets-crossing").hidden = !found && !chosen;
+    byId("sets-crossing-text").textContent = found ? `${found[0].toUpperCase()}${found.slice(1)}. What is inside?` : "Where faces cross, inside is";
+  }
+
+  grab(x, y) {
+    return this.mover.grab(x, y);
   }
 
   // A new version, behind the one that is shown; what was undone is forgotten.
@@ -116,6 +151,7 @@ export class SetsPanel {
     if (to < 0 || to >= this.versions.length) return;
     this.version = to;
     this.editor.text = this.versions[to];
+    this.mover.forget();
     this.#showVersion();
     this.#showCommands();
     this.changed();
@@ -130,9 +166,10 @@ export class SetsPanel {
 
   #showCommands() {
     const { text } = this.editor;
+    const rule = byId("sets-crossings").value;
     showCommands(byId("sets-commands"), [
-      ["Command line", shellLine("nef", "eval", text, "-o", "result.nef")],
-      ["Python", `import nef\nresult = nef.eval(${pythonText(text)}, crossings="union")`],
+      ["Command line", shellLine("nef", "eval", text, "-o", "result.nef", ...(rule === "union" ? [] : ["--crossings", rule]))],
+      ["Python", `import nef\nresult = nef.eval(${pythonText(text)}, crossings="${rule}")`],
     ]);
   }
 }

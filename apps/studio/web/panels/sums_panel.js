@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Sums: two operands and what is made of them; offsets by a slider, between certified bounds.
-import { pythonNumber, pythonText, shellLine, showCommands } from "./commands.js";
-import { ExpressionEditor } from "./editor.js";
-import { approximately } from "./exact.js";
-import { fillNotes, fillTable, measureRows, secondsText } from "./measures.js";
-import { ServerError } from "./server.js";
-import { byId } from "../../view/web/panel.js";
+import { pythonNumber, pythonText, shellLine, showCommands } from "../commands.js";
+import { ExpressionEditor } from "../editor.js";
+import { approximately } from "../exact.js";
+import { fillNotes, fillTable, measureRows, secondsText } from "../measures.js";
+import { ServerError } from "../server.js";
+import { byId } from "../../../view/web/panel.js";
 
 const SUMS_DELAY = 200;
 const FLAGS = { sum: [], erosion: ["--erode"], opening: ["--open"], closing: ["--close"], penetration: ["--penetration"] };
@@ -35,7 +35,7 @@ export class SumsPanel {
     byId("sums-slider").addEventListener("input", () => {
       byId("sums-radius").value = byId("sums-slider").value;
       this.#changed();
-      this.computing.soon(() => this.compute(), 30);
+      this.computing.next(() => this.compute());
     });
     byId("sums-compute").addEventListener("click", () => this.compute());
     this.#changed();

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// node bench/studio/browser.mjs NEF [STEPS]: how long a page of the studio takes from a change to its picture, in a headless
+// Chromium, which draws by software. Rows as in latency.py, and a sphere of 300,000 triangles that is turned and cut.
+// Prints the median and the largest in milliseconds.
+import { spawn } from "node:child_process";
+import { cpSync, mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { Browser, findChromium } from "../../tests/view/browser/chromium.mjs";
+
+const [nef, stepsText = "12"] = process.argv.slice(2);
+const steps = Number(stepsText);
+const data = join(dirname(fileURLToPath(import.meta.url)), "../../data");
+const root = mkdtempSync(join(tmpdir(), "nef-studio-bench-"));
+cpSync(join(data, "visual_hull", "eight"), root, { recursive: true });
+
+// One of 200 boxes, as in latency.py but for where they are.
+let seed = 43;
+const dice = (low, high) => low + ((seed = (seed * 1103515245 + 12345) % 2 ** 31) >> 8) % (high - low);
+const boxes = Array.from({ length: 200 }, () => {
+  const [x, y, z] = [dice(2, 38), dice(2, 38), dice(2, 38)];
+  return `box(${x},${y},${z}, ${x + dice(1, 4)},${y + dice(1, 4)},${z + dice(1, 4)})`;
+});
+const scene = JSON.stringify({ robot: "box(0,0,0, 1/2,1/2,1/2)", obstacles: boxes, box: [[0, 0, 0], [42, 42, 42]], start: [0, 0, 0], goal: [41, 41, 41] });
+
+// In the page: prepare(), then change(i) returns what ends when its answer is there.
+const rows = {
+  "a small set": ["null", '((p) => { p.editor.text = `box(0,0,0, 2,2,2) - translate(ball(6/5, 4), ${i}/100,0,0)`; return p.compute(false); })(nefStudio.sets)'],
+  "a view of twelve": ['nefStudio.choose("hulls", false), nefStudio.hulls.openFile("eight.json")',
+    '((p) => { p.off = new Set(i % 2 ? [i % 12] : []); return p.compute(); })(nefStudio.hulls)'],
+  "an obstacle among 200": [`nefStudio.choose("planner", false), (nefStudio.planner.state = { text: ${JSON.stringify(scene)} }), (document.querySelector("#planner-drag").checked = true), (nefStudio.planner.obstacle = 100), nefStudio.planner.compute()`,
+    '((p) => { p.moves[100] = ["0", `0.${10 + i}`, "0"]; return p.compute(true); })(nefStudio.planner)'],
+  "a cube over 131,000 triangles": ['nefStudio.choose("sets", false), nefStudio.sets.use("sphere(10, 362) - translate(box(-1,-1,-1, 1,1,1), 0,0,10)")',
+    '((p) => { p.editor.text = `sphere(10, 362) - translate(box(-1,-1,-1, 1,1,1), ${i}/10,0,10)`; return p.compute(false); })(nefStudio.sets)'],
+  "a cube over 300,000 triangles": ['nefStudio.sets.use("sphere(10, 548) - translate(box(-1,-1,-1, 1,1,1), 0,0,10)")',
+    '((p) => { p.editor.text = `sphere(10, 548) - translate(box(-1,-1,-1, 1,1,1), ${i}/10,0,10)`; return p.compute(false); })(nefStudio.sets)'],
+  "300,000 triangles turned": ["null", "Promise.resolve(nefViewer.control.turn(0.1, 0.02))"],
+};
+
+const server = spawn(nef, ["studio", "--no-browser", "--root", root], { stdio: ["ignore", "pipe", "inherit"] });
+const address = await new Promise((done) => server.stdout.once("data", (bytes) => done(bytes.toString().trim())));
+const browser = new Browser(findChromium());
+await browser.open(address, 1280, 800, "window.nefStudio?.ready");
+console.log("| from a change to its picture | median ms | largest ms | of it drawing |\n| --- | --- | --- | --- |");
+for (const [name, [prepare, change]] of Object.entries(rows)) {
+  const times = await browser.evaluate(`(async () => {
+    await (${prepare});
+    const gl = nefViewer.renderer.getContext();
+    const picture = () => {
+      const begin = performance.now();
+      nefViewer.draw();
+      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4)); // waits until it is drawn
+      return performance.now() - begin;
+    };
+    picture();
+    const times = [];
+    for (let i = 1; i <= ${steps}; ++i) {
+      const begin = performance.now();
+      await (${change});
+      const drawing = picture();
+      times.push([performance.now() - begin, drawing]);
+    }
+    return times;
+  })()`);
+  const median = (k) => times.map((time) => time[k]).sort((a, b) => a - b)[Math.floor(times.length / 2)].toFixed(0);
+  console.log(`| ${name} | ${median(0)} | ${Math.max(...times.map(([all]) => all)).toFixed(0)} | ${median(1)} |`);
+}
+await browser.close();
+server.kill("SIGTERM");
+rmSync(root, { recursive: true, force: true });

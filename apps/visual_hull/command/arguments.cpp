@@ -135,9 +135,10 @@ void add_output_options(CLI::App& app, Arguments& a) {
   app.add_flag("--color", a.color,
                "Give each vertex the mean colour of the views that see it (PLY, GLB, --page, --picture); photographs "
                "for masks/NAME are searched in images/");
-  app.add_flag("--texture", a.texture,
-               "Make an image of the surface from the photographs (GLB, 3MF; OBJ and PLY with files beside them; --page, "
-               "--picture)");
+  app.add_flag(
+      "--texture", a.texture,
+      "Make an image of the surface from the photographs (GLB, 3MF; OBJ and PLY with files beside them; --page, "
+      "--picture)");
   app.add_flag("--verify", a.verify, "Project the hull back into every view; exit code 1 if it is not inside");
   app.add_option(
          "--way", a.way,

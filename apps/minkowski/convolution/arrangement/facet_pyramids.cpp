@@ -40,7 +40,7 @@ bool FacetPyramids::locate(std::uint32_t facet, PointId point, FacetAtPoint& res
   const double value = plane.value(x);
   if (value > plane.slack || value < -plane.slack) return false;
   const std::span<const RoundedSide> sides = rounded_.sides(facet);
-  result = {facet, {}};
+  result = {facet, {}, {kNone, kNone}};
   std::uint64_t doubtful = 0;
   for (std::size_t i = 0; i < sides.size(); ++i) {
     const double inside = sides[i].value(x);
@@ -55,7 +55,9 @@ bool FacetPyramids::locate(std::uint32_t facet, PointId point, FacetAtPoint& res
     const int sign = side_of_plane(facets_.planes, side, facets_.points, point, monitor_);
     if (sign < 0) return false;
     if (sign > 0 || side == result.sides[0] || side == result.sides[1]) continue;
-    result.sides[result.sides[0].valid() ? 1 : 0] = side;
+    const std::size_t k = result.sides[0].valid() ? 1 : 0;
+    result.sides[k] = side;
+    result.numbers[k] = i;
   }
   return true;
 }

@@ -17,7 +17,8 @@ namespace nef::minkowski {
 /// A facet that holds a point, and the planes across those of its sides that do: none, one, or two at a corner.
 struct FacetAtPoint {
   std::uint32_t facet = 0;
-  std::array<PlaneId, 2> sides;  ///< positive inside; invalid if there are fewer
+  std::array<PlaneId, 2> sides;                        ///< positive inside; invalid if there are fewer
+  std::array<std::uint32_t, 2> numbers{kNone, kNone};  ///< of these sides, or of ones in line with them
 };
 
 /// Exact answers about facets. Adds planes and points to theirs. Not to be shared between threads.

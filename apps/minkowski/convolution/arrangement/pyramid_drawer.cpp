@@ -60,40 +60,43 @@ bool PyramidDrawer::is_void(std::uint32_t facet) const {
 
 // With its inside to the left, the side of a plane S runs along n_S x n_P. At a corner the facet goes counterclockwise
 // from the side that leaves to the one that arrives, backwards.
-void PyramidDrawer::draw_facet(const FacetAtPoint& at, PointId point, SphereMapBuffer& out) {
+void PyramidDrawer::draw_facet(const FacetAtPoint& at, PointId point) {
   const PlaneId plane = facets_.plane[at.facet];
   const LabelId bits = outside_mark(plane);
   const std::uint8_t inside = facets_.marks == BoundaryMarks::kMixed ? facets_.inside_marks[at.facet] : 0;
-  const auto mark = static_cast<LabelId>(bits | label(inside));
   const PlaneTable& planes = facets_.planes;
-  if (!at.sides[0].valid()) {
-    out.assign_circle(plane, mark, 0, 0);
-    out.mark = mark;
-    return;
-  }
-  PlaneId leaving = at.sides[0];
-  PlaneId arriving = at.sides[1].valid() ? at.sides[1] : leaving;
-  if (at.sides[1].valid() && orientation_on_circle(planes, plane, Direction::cross(planes, arriving, plane),
-                                                   Direction::cross(planes, leaving, plane), monitor_) < 0) {
+  const bool is_corner = at.sides[1].valid();
+  std::size_t leaving = 0;
+  std::size_t arriving = is_corner ? 1 : 0;
+  if (is_corner && orientation_on_circle(planes, plane, Direction::cross(planes, at.sides[arriving], plane),
+                                         Direction::cross(planes, at.sides[leaving], plane), monitor_) < 0) {
     std::swap(leaving, arriving);
   }
   const BorderLabels border = border_labels(at.facet, point);
-  drawing_.clear();
-  drawing_.centre = bits | border.centre;
-  drawing_.nodes.resize(2);
-  drawing_.nodes[0].direction = Direction::cross(planes, leaving, plane);
-  drawing_.nodes[0].mark = bits | border.leaving;
-  drawing_.nodes[1].direction = Direction::cross(planes, plane, arriving);
-  drawing_.nodes[1].mark = bits | border.arriving;
-  drawing_.arcs.push_back({plane, 0, 1, mark, 0, 0});
-  drawing_.sort_around_nodes(planes, monitor_);
-  drawing_.simplify_and_assemble(planes, out, monitor_);
+  centre_ |= bits | border.centre;
+  const DrawnArcs::End source = {Direction::cross(planes, at.sides[leaving], plane),
+                                 static_cast<LabelId>(bits | border.leaving), key_along(at, leaving, true)};
+  const DrawnArcs::End target = {Direction::cross(planes, plane, at.sides[arriving]),
+                                 static_cast<LabelId>(bits | border.arriving), key_along(at, arriving, false)};
+  arcs_.add_arc(plane, source, target, static_cast<LabelId>(bits | label(inside)));
+}
+
+// The direction of a side, from its first corner to its second one or back, as a number: that of these corners. Facets
+// that share a side have its corners in common.
+std::uint64_t PyramidDrawer::key_along(const FacetAtPoint& at, std::size_t side, bool forward) const {
+  const auto ring = facets_.ring(at.facet);
+  const std::uint32_t i = at.numbers[side];
+  const std::uint64_t from = ring[i];
+  const std::uint64_t to = ring[i + 1 < ring.size() ? i + 1 : 0];
+  return forward ? from << 32U | to : to << 32U | from;
 }
 
 SphereMapBuffer PyramidDrawer::draw(const std::vector<FacetAtPoint>& at, PointId point) {
-  SphereMapBuffer* map = &maps_[0];
-  SphereMapBuffer* next = &maps_[1];
-  if (at.empty()) map->assign_trivial(0);
+  SphereMapBuffer map;
+  if (at.empty()) {
+    map.assign_trivial(0);
+    return map;
+  }
   struct Whole {
     PlaneId plane;
     LabelId mark = 0;
@@ -109,28 +112,20 @@ SphereMapBuffer PyramidDrawer::draw(const std::vector<FacetAtPoint>& at, PointId
     if (find_whole(plane) == whole.end()) whole.push_back({plane, outside_mark(plane)});
     find_whole(plane)->mark |= in_sum;
   }
-  bool first = true;
-  const auto add = [&] {
-    if (first) {
-      std::swap(*map, maps_[2]);
-    } else {
-      overlay_.overlay(facets_.planes, map->view(), maps_[2].view(), or_, *next, monitor_);
-      std::swap(map, next);
-    }
-    first = false;
-  };
+  centre_ = 0;
+  arcs_.begin(facets_.planes, monitor_);
   for (const Whole& w : whole) {
-    maps_[2].assign_circle(w.plane, w.mark, 0, 0);
-    maps_[2].mark = w.mark;
-    add();
+    arcs_.add_circle(w.plane, w.mark);
+    centre_ |= w.mark;
   }
   for (const FacetAtPoint& f : at) {
+    if (!f.sides[0].valid()) continue;
     const auto under = find_whole(facets_.plane[f.facet]);
     if (under != whole.end() && ((under->mark & kInSum) != 0 || is_void(f.facet))) continue;
-    draw_facet(f, point, maps_[2]);
-    add();
+    draw_facet(f, point);
   }
-  return *map;
+  arcs_.finish(centre_, map);
+  return map;
 }
 
 }  // namespace nef::minkowski

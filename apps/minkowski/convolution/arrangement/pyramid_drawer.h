@@ -3,13 +3,13 @@
 // What convolution facets look like around a point that they hold.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "apps/minkowski/convolution/arrangement/drawn_arcs.h"
 #include "apps/minkowski/convolution/arrangement/facet_pyramids.h"
 #include "nef/base/monitor.h"
-#include "nef/sphere_map/overlay.h"
+#include "nef/sphere_map/sphere_map.h"
 
 namespace nef::minkowski {
 
@@ -32,7 +32,8 @@ class PyramidDrawer {
   SphereMapBuffer draw(const std::vector<FacetAtPoint>& at, PointId point);
 
  private:
-  void draw_facet(const FacetAtPoint& at, PointId point, SphereMapBuffer& out);
+  void draw_facet(const FacetAtPoint& at, PointId point);
+  [[nodiscard]] std::uint64_t key_along(const FacetAtPoint& at, std::size_t side, bool forward) const;
   [[nodiscard]] LabelId label(std::uint8_t in_sum) const;
   struct BorderLabels {
     LabelId leaving = 0, arriving = 0, centre = 0;
@@ -44,10 +45,8 @@ class PyramidDrawer {
   const ConvolutionFacets& facets_;
   const FacetPyramids& pyramids_;
   Monitor monitor_;
-  SphereOverlay overlay_;
-  LabelFunction or_{8, 8, [](LabelId a, LabelId b) { return static_cast<LabelId>(a | b); }};
-  Arrangement drawing_;
-  std::array<SphereMapBuffer, 3> maps_;
+  DrawnArcs arcs_;
+  LabelId centre_ = 0;  // of the drawing at hand
 };
 
 }  // namespace nef::minkowski

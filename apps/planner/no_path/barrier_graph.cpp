@@ -139,6 +139,7 @@ PathProof::PoseCells BarrierGraph::written(const Rational3& reference, std::size
   result.bounds = bounds_.exact;
   const std::vector<bool> at_start = reached();
   result.outside_at_start = at_start[kOutside];
+  result.charts.reserve(charts);
   for (std::size_t chart = 0; chart < charts; ++chart) {
     result.charts.push_back(written(kOutside + 1, chart, at_start));
   }
@@ -151,6 +152,7 @@ PathProof::PoseCell BarrierGraph::written(Id id, std::size_t chart, const std::v
   PathProof::PoseCell result;
   result.kind = at_start[id] ? Kind::kStart : Kind::kGoal;
   if (cell.state == State::kOpen) return result;
+  result.halves.reserve(2);  // nothing is copied again
   for (const Id half : cell.halves) result.halves.push_back(written(half, chart, at_start));
   const Kind kind = result.halves[0].kind;
   if (kind == result.halves[1].kind && (kind == Kind::kStart || kind == Kind::kGoal)) {

@@ -48,6 +48,10 @@ Vector3d turned_vector(const ScaledMatrix<double>& m, const Vector3d& v) {
 
 InnerPiece inner_piece(const RoughSolid& piece, const Matrices& matrices) {
   InnerPiece result;
+  const std::size_t planes = piece.normals.size() * matrices.size();
+  result.normals.reserve(planes);
+  result.lengths.reserve(planes);
+  result.offsets.reserve(planes);
   for (std::size_t f = 0; f < piece.normals.size(); ++f) {
     for (const ScaledMatrix<double>& m : matrices) {
       result.normals.push_back(turned_vector(m, piece.normals[f]));
@@ -119,6 +123,7 @@ namespace {
 class DepthProgram {
  public:
   DepthProgram(const InnerPiece& piece, const RoughSolid& obstacle) : piece_(piece) {
+    program_.reserve(piece.normals.size() + obstacle.normals.size());
     for (std::size_t r = 0; r < piece.normals.size(); ++r) {
       const Vector3d& m = piece.normals[r];
       program_.add({m[0], m[1], m[2], piece.lengths[r]}, 0);

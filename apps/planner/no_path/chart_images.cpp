@@ -81,8 +81,14 @@ std::vector<std::optional<ChartImage>> images_of_charts(const PathProof::Claim& 
 }
 
 PathProof::PoseCell image_of(const PathProof::PoseCell& cell, const ChartImage& image) {
-  PathProof::PoseCell result = cell;
-  result.halves.clear();
+  PathProof::PoseCell result;
+  result.kind = cell.kind;
+  result.axis = cell.axis;
+  result.at = cell.at;
+  result.obstacle = cell.obstacle;
+  result.common = cell.common;
+  result.side = cell.side;
+  result.halves.reserve(cell.halves.size());  // nothing is copied again
   for (const PathProof::PoseCell& half : cell.halves) result.halves.push_back(image_of(half, image));
   if (cell.kind == PathProof::PoseCell::Kind::kBlocked) result.robot = image.pieces[cell.robot];
   if (cell.kind == PathProof::PoseCell::Kind::kCut && cell.axis >= 3) {

@@ -36,7 +36,7 @@ PathProof::Claim no_path_claim(const MotionChecker& checker, const RotationClaim
 /// on it is blocked by one pair of solid pieces, and the limits are wide enough, it is found; where the robot must be
 /// turned to pass, and cannot, but each of its points could be anywhere, there is none. How many boxes it takes grows
 /// steeply as the robot becomes nearly small enough to pass. Everything is found in doubles; a proof is returned only
-/// if complaint_about has nothing against it, which takes most of the time. Ends without a proof if the limits are
+/// if complaint_about has nothing against it. Ends without a proof if the limits are
 /// reached, the monitor stops it, or nothing is left to be cut.
 NoPathAnswer prove_no_rigid_path(const MotionChecker& checker, const RigidPose& start, const RigidPose& goal,
                                  const NoPathLimits& limits = {}, const Monitor& monitor = {});

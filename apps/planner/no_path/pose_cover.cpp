@@ -194,6 +194,7 @@ PoseCover cover_poses(const BlockingPairs& pairs, const Orientations& orientatio
                       const std::vector<std::optional<ChartImage>>& images, const PositionBox& box, std::size_t& budget,
                       const Monitor& monitor) {
   PoseCover result;
+  result.charts.reserve(orientations.charts().size());
   Covering covering(pairs, orientations, budget, monitor);
   for (std::uint32_t chart = 0; chart < orientations.charts().size(); ++chart) {
     if (images[chart]) {

@@ -21,9 +21,10 @@ class SmallProgram {
  public:
   using Row = std::array<double, N>;
 
-  void clear() {
-    rows_.clear();
-    bounds_.clear();
+  /// Makes room for so many rows.
+  void reserve(std::size_t rows) {
+    rows_.reserve(rows);
+    bounds_.reserve(rows);
   }
   void add(const Row& row, double bound) {
     rows_.push_back(row);

@@ -95,10 +95,8 @@ std::array<Integer, N> multiplied(const std::array<Rational, N>& numbers, const 
 
 }  // namespace
 
-// With parameters times an even factor, and the origin times this and that of the directions, all quaternions are
-// integers.
-std::vector<ScaledMatrix<Integer>> mixed_rotations(const Orientations& orientations,
-                                                   const OrientationBox<Rational>& cell) {
+// Parameters are multiplied by an even factor, the origin by this and that of the directions.
+QuaternionBox<Integer> in_integers(const Orientations& orientations, const OrientationBox<Rational>& cell) {
   const Orientations::Chart& chart = orientations.charts()[cell.chart];
   Integer parts = 1;
   take_denominators(cell.low, parts);
@@ -107,10 +105,16 @@ std::vector<ScaledMatrix<Integer>> mixed_rotations(const Orientations& orientati
   Integer units = 1;
   take_denominators(chart.origin, units);
   for (const Quaternion& direction : chart.directions) take_denominators(direction, units);
-  std::vector<std::array<Integer, 4>> directions;
-  for (const Quaternion& direction : chart.directions) directions.push_back(multiplied(direction, units));
-  return mixed_rotations(multiplied(chart.origin, units * parts), directions, multiplied(cell.low, parts),
-                         multiplied(cell.high, parts));
+  QuaternionBox<Integer> result{
+      multiplied(chart.origin, units * parts), {}, multiplied(cell.low, parts), multiplied(cell.high, parts)};
+  for (const Quaternion& direction : chart.directions) result.directions.push_back(multiplied(direction, units));
+  return result;
+}
+
+std::vector<ScaledMatrix<Integer>> mixed_rotations(const Orientations& orientations,
+                                                   const OrientationBox<Rational>& cell) {
+  const QuaternionBox<Integer> box = in_integers(orientations, cell);
+  return mixed_rotations(box.origin, box.directions, box.low, box.high);
 }
 
 }  // namespace nef::planner

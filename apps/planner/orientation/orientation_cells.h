@@ -136,7 +136,18 @@ std::vector<ScaledMatrix<Number>> mixed_rotations(const std::array<Number, 4>& o
   return result;
 }
 
-/// The same of a cell, in integers: numerators and divisors of all matrices have a common factor.
+/// The quaternions of a box in a chart: origin + sum t_k directions[k], low <= t <= high.
+template <class Number>
+struct QuaternionBox {
+  std::array<Number, 4> origin;
+  std::vector<std::array<Number, 4>> directions;
+  std::array<Number, 3> low, high;
+};
+
+/// A cell in integers: all quaternions are multiplied by a common factor, and the middles of parameters are integers.
+QuaternionBox<Integer> in_integers(const Orientations& orientations, const OrientationBox<Rational>& cell);
+
+/// The mixed rotations of a cell, in integers: numerators and divisors of all matrices have a common factor.
 std::vector<ScaledMatrix<Integer>> mixed_rotations(const Orientations& orientations,
                                                    const OrientationBox<Rational>& cell);
 

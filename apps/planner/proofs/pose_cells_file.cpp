@@ -54,6 +54,7 @@ PathProof::PoseCell read_pose_cell(const JsonReader& reader) {
     cell.axis = proof_index(reader["axis"]);
     cell.at = proof_number(reader["at"]);
     auto halves = reader["halves"].exactly<2>(read_pose_cell);
+    cell.halves.reserve(2);  // nothing is copied
     for (PathProof::PoseCell& half : halves) cell.halves.push_back(std::move(half));
   } else {
     reader.require_keys({"robot", "obstacle", "common"});

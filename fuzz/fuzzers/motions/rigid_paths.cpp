@@ -270,6 +270,7 @@ class RigidPathCase {
   void draw_robot() {
     Choices& choices = case_.choices();
     const std::array<int, 3> size{choices.between(3, 14), choices.between(3, 12), choices.between(3, 8)};
+    thinnest_ = *std::min_element(size.begin(), size.end());
     std::array<int, 3> low{};
     for (std::size_t k = 0; k < 3; ++k) low[k] = choices.one_in(3) ? choices.between(-8, 4) : -size[k] / 2;
     case_.tell("robot");
@@ -290,7 +291,10 @@ class RigidPathCase {
   void add_wall(int x) {
     Choices& choices = case_.choices();
     const int thick = choices.between(1, 6);
-    const std::array<int, 2> size{choices.between(2, 20), choices.between(2, 20)};
+    // A third of the windows is so narrow that a proof should be found.
+    const int most = choices.one_in(3) ? std::max(1, thinnest_ / 2) : 20;
+    const int least = std::min(2, most);
+    const std::array<int, 2> size{choices.between(least, most), choices.between(least, most)};
     const std::array<int, 2> at{choices.between(0, 40 - size[0]), choices.between(0, 40 - size[1])};
     constexpr int kOut = 60;  // beyond all that the robot can reach past the room
     const int side = 8 * kRoomSide + 2 * kOut;
@@ -597,6 +601,7 @@ class RigidPathCase {
   GridPlace start_;
   GridPlace goal_;
   bool has_box_ = false;
+  int thinnest_ = 0;  // the shortest edge of the robot's first piece, in eighths
 };
 
 }  // namespace

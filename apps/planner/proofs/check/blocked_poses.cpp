@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A question is brought to integers: positions and points times one number, quaternions times another one. Then the
+// same lines decide it in words, if nothing can overflow there, or in long integers.
 #include "apps/planner/proofs/check/blocked_poses.h"
 
 #include <algorithm>
 
+#include "nef/base/fast_path.h"
 #include "nef/construct/convex_hull.h"
 #include "nef/geometry/integer_vector.h"
 #include "nef/geometry/vectors.h"
@@ -11,47 +15,23 @@
 namespace nef::planner {
 namespace {
 
-// An integer vector that is a positive multiple of a rational one: products of those need no common divisors.
-struct Scaled {
-  Integer3 vector;
-  Integer scale;
-};
+constexpr std::size_t kWordBits = 62;
 
-Scaled scaled(const Rational3& v) {
-  const Integer scale = common_denominator(v);
-  return {times(v, scale), scale};
+template <std::size_t N>
+void take_bits(const std::array<Integer, N>& numbers, std::size_t& bits) {
+  for (const Integer& x : numbers) bits = std::max(bits, mpz_sizeinbase(x.get_mpz_t(), 2));
 }
 
-// The same in machine words, if it is short.
-struct ShortVector {
-  std::array<std::int64_t, 3> vector{};
-  std::int64_t scale = 0;
-};
-
-std::optional<ShortVector> short_vector(const Integer3& vector, const Integer& scale) {
-  constexpr std::size_t kMostBits = 58;
-  for (const Integer* x : {&vector[0], &vector[1], &vector[2], &scale}) {
-    if (mpz_sizeinbase(x->get_mpz_t(), 2) > kMostBits) return std::nullopt;
-  }
-  return ShortVector{{vector[0].get_si(), vector[1].get_si(), vector[2].get_si()}, scale.get_si()};
+template <std::size_t N>
+std::array<Int128, N> words_of(const std::array<Integer, N>& numbers) {
+  std::array<Int128, N> result;
+  for (std::size_t i = 0; i < N; ++i) result[i] = numbers[i].get_si();
+  return result;
 }
 
-// Whether normal * point < most for all points. Nearly all vectors are short; those that are not are compared by
-// Integer, the twin of this.
-bool all_are_below(const Integer3& normal, const Integer& most, const std::vector<Scaled>& points,
-                   const std::vector<std::optional<ShortVector>>& short_points) {
-  const std::optional<ShortVector> plane = short_vector(normal, most);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (plane && short_points[i]) {
-      const ShortVector& point = *short_points[i];
-      Int128 at = 0;
-      for (std::size_t k = 0; k < 3; ++k) at += Int128{plane->vector[k]} * point.vector[k];
-      if (at >= Int128{plane->scale} * point.scale) return false;
-    } else if (dot(normal, points[i].vector) >= most * points[i].scale) {
-      return false;
-    }
-  }
-  return true;
+template <class Number>
+Number product(const std::array<Number, 3>& a, const std::array<Number, 3>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 }  // namespace
@@ -60,16 +40,59 @@ Integer3 scaled_product(const ScaledMatrix<Integer>& m, const Integer3& v) {
   return {dot(m.rows[0], v), dot(m.rows[1], v), dot(m.rows[2], v)};
 }
 
-std::vector<BlockedPoses::Face> BlockedPoses::faces_of(const std::vector<Rational3>& vertices,
-                                                       const Rational3& seen_from) {
+template <class Number>
+struct BlockedPoses::Question {
+  QuaternionBox<Number> orientations;
+  std::vector<std::array<Number, 3>> positions;
+  std::vector<std::array<Number, 3>> points;
+  Number unit;
+};
+
+template <class Number>
+std::optional<std::string> BlockedPoses::complaint(const std::vector<Face<Number>>& robot,
+                                                   const std::vector<Face<Number>>& obstacle,
+                                                   const Question<Number>& question) {
+  for (const Face<Number>& face : obstacle) {
+    const Number most = face.offset * question.unit;
+    for (const std::array<Number, 3>& point : question.points) {
+      if (product(face.normal, point) > most) return "a point of both pieces is not in the obstacle";
+    }
+  }
+  std::vector<std::array<Number, 3>> seen = question.points;  // from its position
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) seen[i][k] -= question.positions[i][k];
+  }
+  const QuaternionBox<Number>& box = question.orientations;
+  const std::vector<ScaledMatrix<Number>> matrices = mixed_rotations(box.origin, box.directions, box.low, box.high);
+  if (matrices.empty()) return "what is blocked has too many orientations";
+  for (const Face<Number>& face : robot) {
+    for (const ScaledMatrix<Number>& m : matrices) {
+      const std::array<Number, 3> normal{product(m.rows[0], face.normal), product(m.rows[1], face.normal),
+                                         product(m.rows[2], face.normal)};
+      const Number most = face.offset * m.scale * question.unit;
+      for (const std::array<Number, 3>& point : seen) {
+        if (product(normal, point) >= most) return "a point of both pieces is not inside the robot";
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+BlockedPoses::Faces BlockedPoses::faces_of(const std::vector<Rational3>& vertices, const Rational3& seen_from) {
   std::vector<Rational3> shifted;
   for (const Rational3& v : vertices) shifted.push_back(minus(v, seen_from));
   const Hull hull = hull_of(shifted);
-  std::vector<Face> result;
+  Faces result;
   if (hull.dimension < 3) return result;
   for (const HalfSpace& face : half_spaces_of(hull.mesh)) {
     const Integer scale = lcm(common_denominator(face.normal), face.offset.get_den());
-    result.push_back({times(face.normal, scale), Integer(scale / face.offset.get_den() * face.offset.get_num())});
+    result.exact.push_back({times(face.normal, scale), Integer(scale / face.offset.get_den() * face.offset.get_num())});
+    take_bits(result.exact.back().normal, result.bits);
+    take_bits(std::array{result.exact.back().offset}, result.bits);
+  }
+  if (result.bits > kWordBits) return result;
+  for (const Face<Integer>& face : result.exact) {
+    result.words.push_back({words_of(face.normal), Int128{face.offset.get_si()}});
   }
   return result;
 }
@@ -85,31 +108,54 @@ std::optional<std::string> BlockedPoses::complaint(const OrientationBox<Rational
                                                    std::uint32_t obstacle, std::span<const Rational3> common) const {
   if (robot >= robot_.size() || obstacle >= obstacles_.size())
     return "what is blocked names a piece that does not exist";
-  const std::vector<Face>& piece = robot_[robot];
-  const std::vector<Face>& faces = obstacles_[obstacle];
-  if (piece.empty() || faces.empty()) return "a flat piece blocks nothing";
+  const Faces& piece = robot_[robot];
+  const Faces& other = obstacles_[obstacle];
+  if (piece.exact.empty() || other.exact.empty()) return "a flat piece blocks nothing";
   if (common.size() != positions.size()) return "what is blocked has a point of both pieces for each corner";
-  const std::vector<ScaledMatrix<Integer>> matrices = mixed_rotations(orientations_, box);
-  if (matrices.empty()) return "what is blocked has too many orientations";
-  std::vector<Scaled> inside;  // each point, seen from its corner
-  std::vector<std::optional<ShortVector>> short_inside;
-  for (std::size_t i = 0; i < common.size(); ++i) {
-    inside.push_back(scaled(minus(common[i], positions[i])));
-    short_inside.push_back(short_vector(inside.back().vector, inside.back().scale));
-    const Scaled point = scaled(common[i]);
-    const bool is_in = std::all_of(faces.begin(), faces.end(), [&](const Face& face) {
-      return dot(face.normal, point.vector) <= face.offset * point.scale;
-    });
-    if (!is_in) return "a point of both pieces is not in the obstacle";
+  Question<Integer> question{in_integers(orientations_, box), {}, {}, 1};
+  for (const std::span<const Rational3> points : {positions, common}) {
+    for (const Rational3& point : points) question.unit = lcm(question.unit, common_denominator(point));
   }
-  for (const Face& face : piece) {
-    for (const ScaledMatrix<Integer>& m : matrices) {
-      if (!all_are_below(scaled_product(m, face.normal), face.offset * m.scale, inside, short_inside)) {
-        return "a point of both pieces is not inside the robot";
-      }
-    }
+  for (const Rational3& position : positions) question.positions.push_back(times(position, question.unit));
+  for (const Rational3& point : common) question.points.push_back(times(point, question.unit));
+  if (kFastPaths) {
+    const auto words = in_words(question, std::max(piece.bits, other.bits));
+    if (words) return complaint(piece.words, other.words, *words);
   }
-  return std::nullopt;
+  return complaint(piece.exact, other.exact, question);
+}
+
+// The same question, if nothing that is computed for it has more bits than two words: by far most have not. The one in
+// Integer is its twin. With q bits for a quaternion's components, four products make an entry of a matrix: 2 q + 2
+// bits, and 2 for the middle ones, which are differences. Three of these times a face's numbers, f bits, are 2 more;
+// and so for the points, p bits and one for the difference.
+std::optional<BlockedPoses::Question<Int128>> BlockedPoses::in_words(const Question<Integer>& question,
+                                                                     std::size_t face_bits) {
+  const QuaternionBox<Integer>& box = question.orientations;
+  std::size_t parameter_bits = 0;
+  std::size_t direction_bits = 0;
+  std::size_t quaternion_bits = 0;
+  std::size_t point_bits = 0;
+  take_bits(box.low, parameter_bits);
+  take_bits(box.high, parameter_bits);
+  for (const std::array<Integer, 4>& direction : box.directions) take_bits(direction, direction_bits);
+  take_bits(box.origin, quaternion_bits);
+  // The origin and three multiples of directions, or half of an edge, which is no longer.
+  quaternion_bits = std::max(quaternion_bits, parameter_bits + direction_bits + 1) + 2;
+  take_bits(std::array{question.unit}, point_bits);
+  for (const Integer3& v : question.positions) take_bits(v, point_bits);
+  for (const Integer3& v : question.points) take_bits(v, point_bits);
+  constexpr std::size_t kMostBits = 126;
+  if (std::max({quaternion_bits, point_bits, face_bits}) > kWordBits) return std::nullopt;
+  if ((2 * quaternion_bits + 4) + (face_bits + 2) + (point_bits + 3) > kMostBits) return std::nullopt;
+  Question<Int128> result{
+      {words_of(box.origin), {}, words_of(box.low), words_of(box.high)}, {}, {}, Int128{question.unit.get_si()}};
+  for (const std::array<Integer, 4>& direction : box.directions) {
+    result.orientations.directions.push_back(words_of(direction));
+  }
+  for (const Integer3& v : question.positions) result.positions.push_back(words_of(v));
+  for (const Integer3& v : question.points) result.points.push_back(words_of(v));
+  return result;
 }
 
 }  // namespace nef::planner

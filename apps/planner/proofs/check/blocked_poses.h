@@ -3,6 +3,8 @@
 // What shows that two pieces overlap at all poses of some set.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -12,6 +14,7 @@
 #include "apps/planner/intersection/hulls_apart.h"
 #include "apps/planner/orientation/orientation_cells.h"
 #include "apps/planner/proofs/path_proof.h"
+#include "nef/number/int128.h"
 
 namespace nef::planner {
 
@@ -31,16 +34,32 @@ class BlockedPoses {
 
  private:
   // normal * x <= offset, in integers: their products need no common divisors.
+  template <class Number>
   struct Face {
-    Integer3 normal;
-    Integer offset;
+    std::array<Number, 3> normal;
+    Number offset;
   };
+  struct Faces {
+    std::vector<Face<Integer>> exact;
+    std::vector<Face<Int128>> words;  // the same, if no number has more bits than a word
+    std::size_t bits = 0;             // of the longest number
+  };
+  // A box of poses in one chart, and points of both pieces, in integers: positions and points times `unit`.
+  template <class Number>
+  struct Question;
+  template <class Number>
+  static std::optional<std::string> complaint(const std::vector<Face<Number>>& robot,
+                                              const std::vector<Face<Number>>& obstacle,
+                                              const Question<Number>& question);
+  // The question in words, if that cannot overflow.
+  static std::optional<Question<Int128>> in_words(const Question<Integer>& question, std::size_t face_bits);
+
   // Those of a piece, seen from a point; none for a flat piece.
-  static std::vector<Face> faces_of(const std::vector<Rational3>& vertices, const Rational3& seen_from);
+  static Faces faces_of(const std::vector<Rational3>& vertices, const Rational3& seen_from);
 
   const Orientations& orientations_;
-  std::vector<std::vector<Face>> robot_;  // seen from the reference
-  std::vector<std::vector<Face>> obstacles_;
+  std::vector<Faces> robot_;  // seen from the reference
+  std::vector<Faces> obstacles_;
 };
 
 /// The product of the matrix and a vector, without the division.

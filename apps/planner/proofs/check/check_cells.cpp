@@ -76,6 +76,7 @@ class CellsCheck {
     if (claim_.path.size() != 2) return "the path must be two poses, start and goal";
     if (cells_.charts.size() != orientations_.charts().size()) return "there must be a box for each chart";
     if (CellsComplaint complaint = check_bounds()) return complaint;
+    roots_.reserve(cells_.charts.size());
     for (std::uint32_t chart = 0; chart < cells_.charts.size(); ++chart) {
       BoxNode& root = roots_.emplace_back();
       root.box.chart = chart;
@@ -125,6 +126,7 @@ class CellsCheck {
         cell.at >= node.box.high[cell.axis]) {
       return "a box is cut outside of it";
     }
+    node.halves.reserve(2);  // nothing that is built is copied
     for (const bool upper : {false, true}) {
       BoxNode& half = node.halves.emplace_back();
       half.box = node.box;

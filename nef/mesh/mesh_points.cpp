@@ -129,7 +129,7 @@ MeshPoints MeshPoints::near(std::vector<std::array<double, 3>> doubles) {
 MeshPoints::MeshPoints(const PointTable& table, std::span<const PointId> places,
                        std::span<const std::array<double, 3>> doubles, std::span<const std::uint32_t> asked)
     : approximate_(doubles), other_table_(&table), places_(places) {
-  are_integers_ = find_denominator(asked) && scale_to_integers(asked);
+  are_integers_ = find_denominator(asked) && scale_to_integers(doubles, asked);
   if (!are_integers_) {
     denominator_ = 1;
     own_.clear();
@@ -177,21 +177,23 @@ bool MeshPoints::find_denominator(std::span<const std::uint32_t> asked) {
 }
 
 // x D is an integer, and the double near x is off by 2^-51 of it at most: below 2^40, the product with D is off by less
-// than half, and one that is not is found to be too large.
-bool MeshPoints::scale_to_integers(std::span<const std::uint32_t> asked) {
+// than half, and one that is not is found to be too large. A vertex may be asked twice, so what is scaled is never read
+// again.
+bool MeshPoints::scale_to_integers(std::span<const std::array<double, 3>> doubles,
+                                   std::span<const std::uint32_t> asked) {
   const auto factor = static_cast<double>(denominator_);
   const std::size_t count = asked.empty() ? places_.size() : asked.size();
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t p = asked.empty() ? i : asked[i];
-    std::array<double, 3> scaled = approximate_[p];
+    std::array<double, 3> scaled = doubles[p];
     for (double& x : scaled) {
       x *= factor;
       if (!(std::abs(x) < static_cast<double>(kIntegerLimit) - 1)) return false;
       x = static_cast<double>(static_cast<std::int64_t>(x + (x < 0 ? -0.5 : 0.5)));
     }
     if (own_.empty()) {
-      if (scaled == approximate_[p]) continue;
-      own_.assign(approximate_.begin(), approximate_.end());
+      if (scaled == doubles[p]) continue;
+      own_.assign(doubles.begin(), doubles.end());
       approximate_ = own_;
     }
     own_[p] = scaled;

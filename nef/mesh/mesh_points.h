@@ -124,7 +124,7 @@ class MeshPoints {
   bool make_integers(std::span<const Rational3> points);
   bool enlarge_denominator(std::int64_t more);
   bool find_denominator(std::span<const std::uint32_t> asked);
-  bool scale_to_integers(std::span<const std::uint32_t> asked);
+  bool scale_to_integers(std::span<const std::array<double, 3>> doubles, std::span<const std::uint32_t> asked);
   void find_margins(std::span<const std::uint32_t> asked);
   [[nodiscard]] const PointTable& source() const { return other_table_ != nullptr ? *other_table_ : table_; }
   [[nodiscard]] PointId place(std::uint32_t p) const { return other_table_ != nullptr ? places_[p] : PointId{p}; }

@@ -6,6 +6,8 @@
 // and counted.
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <vector>
 
 #include "fuzz/fuzzer.h"
 #include "nef/base/error.h"
@@ -19,11 +21,27 @@
 namespace nef::fuzz {
 namespace {
 
+// A roof of two rectangles over a round body of triangles: a few polygons with common corners among many triangles.
+std::vector<Rational3> roofed_body(Choices& choices) {
+  const Rational rise = Rational(choices.between(1, 5)) / 3;
+  std::vector<Rational3> points{{0, 0, 0}, {0, 2, 0}, {1, 0, rise}, {1, 2, rise}, {2, 0, 0}, {2, 2, 0}};
+  const int digits = choices.element(std::array{10, 1000, 1000000});
+  for (int i = choices.between(4, 40); i > 0; --i) {
+    const double x = choices.between(-1000, 1000);
+    const double y = choices.between(-1000, 1000);
+    const double z = choices.between(-1000, 700);
+    const double length = std::max(1.0, std::hypot(x, y, z));
+    const auto decimal = [&](double part) { return Rational(std::lround(2 * digits * part / length)) / digits; };
+    points.push_back({decimal(x) + 1, decimal(y) + 1, decimal(z) - 3});
+  }
+  return points;
+}
+
 Polyhedron turned_solid(const Case& the_case, int far) {
   Choices& choices = the_case.choices();
   Polyhedron solid;
   std::string text;
-  switch (choices.below(4)) {
+  switch (choices.below(5)) {
     case 0: {
       const int x = choices.between(1, 4);
       const int y = choices.between(1, 4);
@@ -38,6 +56,15 @@ Polyhedron turned_solid(const Case& the_case, int far) {
       const int n = choices.between(4, 10);
       solid = make_sphere(r, static_cast<unsigned>(n));
       text = "sphere(" + std::to_string(r) + "," + std::to_string(n) + ")";
+      break;
+    }
+    case 2: {
+      const std::vector<Rational3> points = roofed_body(choices);
+      solid = convex_hull(points);
+      for (const Rational3& p : points) {
+        text += (text.empty() ? "hull((" : ", (") + p[0].get_str() + "," + p[1].get_str() + "," + p[2].get_str() + ")";
+      }
+      text += ")";
       break;
     }
     default: {

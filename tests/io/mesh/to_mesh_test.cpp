@@ -3,8 +3,11 @@
 // Meshes of polyhedra: the solid that they bound is the regularized bounded part, and what they lack is told.
 #include <catch2/catch.hpp>
 
+#include <cmath>
 #include <random>
+#include <vector>
 
+#include "nef/construct/construct.h"
 #include "nef/export/to_mesh.h"
 #include "nef/mesh/mesh_check.h"
 #include "nef/mesh/polygon/triangulate.h"
@@ -214,6 +217,44 @@ TEST_CASE("Holes that touch, and dangling edges") {
     sum += area;
   }
   CHECK(sum == 2 * (81 - 4 - 4));
+}
+
+// A roof of two rectangles that share the ridge, and below it a round body of triangles. Coordinates are thirds, and
+// decimals that a sphere's rational points are rounded to.
+std::vector<Rational3> roof_over_a_round_body(std::mt19937_64& random) {
+  const Rational rise = Rational(static_cast<int>(1 + random() % 5)) / 3;
+  std::vector<Rational3> points{{0, 0, 0}, {0, 2, 0}, {1, 0, rise}, {1, 2, rise}, {2, 0, 0}, {2, 2, 0}};
+  std::uniform_real_distribution<double> angle(0, 2 * M_PI);
+  std::uniform_real_distribution<double> height(-1, 0.7);
+  for (int i = 0; i < 30; ++i) {
+    const double z = height(random);
+    const double a = angle(random);
+    const double r = std::sqrt(1 - z * z);
+    const auto decimal = [](double x) { return Rational(static_cast<long>(std::lround(1000 * x)), 1000); };
+    points.push_back({1 + decimal(2 * r * std::cos(a)), 1 + decimal(2 * r * std::sin(a)), decimal(2 * z) - 3});
+    for (Rational& x : points.back()) x.canonicalize();
+  }
+  return points;
+}
+
+// Corners of polygons are asked about once for each polygon that has them. That they are few is what makes it matter:
+// else all vertices are asked about, once.
+TEST_CASE("A few polygons with common corners among many triangles are triangulated as they lie") {
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 20; ++i) {
+    const Polyhedron set = convex_hull(roof_over_a_round_body(random));
+    const Mesh polygons = to_mesh(set, {.keep_polygons = true}).mesh;
+    std::size_t corners = 0;
+    for (std::size_t f = 0; f < polygons.face_count(); ++f) {
+      if (polygons.face(f).size() > 3) corners += polygons.face(f).size();
+    }
+    REQUIRE(corners >= 8);
+    CHECK(2 * corners < polygons.vertices.size());
+    const Mesh triangles = to_mesh(set).mesh;
+    CHECK(triangles.face_count() > polygons.face_count());
+    CHECK(is_closed(triangles));
+    CHECK(six_volumes(triangles) == six_volumes(polygons));
+  }
 }
 
 }  // namespace

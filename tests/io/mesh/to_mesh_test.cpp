@@ -241,9 +241,11 @@ std::vector<Rational3> roof_over_a_round_body(std::mt19937_64& random) {
 // else all vertices are asked about, once.
 TEST_CASE("A few polygons with common corners among many triangles are triangulated as they lie") {
   std::mt19937_64 random(3);
+  MeshExportOptions as_polygons;
+  as_polygons.keep_polygons = true;
   for (int i = 0; i < 20; ++i) {
     const Polyhedron set = convex_hull(roof_over_a_round_body(random));
-    const Mesh polygons = to_mesh(set, {.keep_polygons = true}).mesh;
+    const Mesh polygons = to_mesh(set, as_polygons).mesh;
     std::size_t corners = 0;
     for (std::size_t f = 0; f < polygons.face_count(); ++f) {
       if (polygons.face(f).size() > 3) corners += polygons.face(f).size();

@@ -28,9 +28,8 @@
 
 extern char** environ;
 
+namespace nef::studio {
 namespace {
-
-using namespace nef;
 
 std::size_t number(const char* text) {
   std::size_t value = 0;
@@ -82,26 +81,26 @@ class Redirection {
 
 int run(std::span<char*> arguments) {
   if (arguments.size() != 8) throw InputError("nef-studio is started by nef studio (nef studio --help)");
-  studio::StudioOptions options;
+  StudioOptions options;
   options.root = arguments[3];
   options.threads = static_cast<unsigned>(number(arguments[4]));
   options.limits.seconds = static_cast<double>(number(arguments[5]));
   options.limits.bytes = number(arguments[6]) << 20U;
   options.files = {arguments[7]};
-  studio::run_state(options, arguments[2], std::cout);
+  run_state(options, arguments[2], std::cout);
   return 0;
 }
 
 int serve(std::span<char*> arguments) {
   if (arguments.size() < 7) throw InputError("nef-studio is started by nef studio (nef studio --help)");
-  studio::StudioOptions options;
+  StudioOptions options;
   options.root = arguments[1];
   const std::size_t port = number(arguments[2]);
   options.threads = static_cast<unsigned>(number(arguments[3]));
   options.limits.seconds = static_cast<double>(number(arguments[4]));
   options.limits.bytes = number(arguments[5]) << 20U;
   const bool browser = number(arguments[6]) != 0;
-  if (studio::studio_page().empty()) {
+  if (studio_page().empty()) {
     throw UnsupportedError(
         "the page was not built because CMake found no node, npm or network; install the packages nodejs and npm and "
         "configure again (cmake -B build)");
@@ -111,9 +110,9 @@ int serve(std::span<char*> arguments) {
   sigset_t ends;
   sigemptyset(&ends);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&ends, signal);
-  studio::Studio studio(options, [] { ::kill(::getpid(), SIGTERM); });
-  studio::LoopbackServer server(static_cast<std::uint16_t>(port), studio::random_token(), {},
-                                [&studio](const studio::WebRequest& request) { return studio.answer(request); });
+  Studio studio(options, [] { ::kill(::getpid(), SIGTERM); });
+  LoopbackServer server(static_cast<std::uint16_t>(port), random_token(), {},
+                        [&studio](const WebRequest& request) { return studio.answer(request); });
   std::cout << server.address() << std::endl;
   const Redirection redirection(server.address());
   if (browser) redirection.open();
@@ -133,6 +132,7 @@ int serve(std::span<char*> arguments) {
 }
 
 }  // namespace
+}  // namespace nef::studio
 
 int main(int argc, char** argv) {
   nef::keep_freed_memory();
@@ -140,7 +140,7 @@ int main(int argc, char** argv) {
     nef::require_stack();
     const std::span<char*> arguments(argv, static_cast<std::size_t>(argc));
     const bool runs = argc > 1 && std::string_view(argv[1]) == "--run";
-    return runs ? run(arguments) : serve(arguments);
+    return runs ? nef::studio::run(arguments) : nef::studio::serve(arguments);
   } catch (const std::exception& error) {
     std::cerr << "nef studio: " << nef::one_line(error.what()) << '\n';
     return 2;

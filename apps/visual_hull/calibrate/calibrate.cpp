@@ -111,14 +111,18 @@ void place_views(BoardSeries& series, const Lens& lens) {
   }
 }
 
-// Refuses views that are off by far more than the others; whether there were any.
-bool refuse_outliers(BoardSeries& series) {
+// Of the views that are left; 0 if there are none.
+double median_error(const BoardSeries& series) {
   std::vector<double> errors;
   for (std::size_t i = 0; i < series.views.size(); ++i) {
     if (series.good(i)) errors.push_back(series.views[i].error_px);
   }
-  if (errors.empty()) return false;
-  const double median = median_of(errors);
+  return errors.empty() ? 0 : median_of(std::move(errors));
+}
+
+// Refuses views that are off by far more than the others; whether there were any.
+bool refuse_outliers(BoardSeries& series) {
+  const double median = median_error(series);
   const double most = std::max(kCornerNoise, kManyTimes * median);
   bool any = false;
   for (CalibratedView& view : series.views) {
@@ -226,11 +230,7 @@ void note_refused(const std::vector<CalibratedView>& views, nef::Messages& notes
 
 // Whether a lens explains photographs far worse than those of the series that it comes from.
 nef::Messages note_of_other_lens(const BoardSeries& series, const BoardLens& lens) {
-  std::vector<double> errors;  // their median: a view or two may be worse for reasons of their own
-  for (std::size_t i = 0; i < series.views.size(); ++i) {
-    if (series.good(i)) errors.push_back(series.views[i].error_px);
-  }
-  const double error = errors.empty() ? 0 : median_of(errors);
+  const double error = median_error(series);  // a view or two may be worse for reasons of their own
   if (error <= kOtherLens * lens.error_px) return {};
   return {
       fmt::format("the lens of the other series explains the photographs to {:.2f} pixels, its own ones to "

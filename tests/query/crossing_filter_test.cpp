@@ -27,6 +27,14 @@ nef::Approximation3 near(const Rational3& p) {
   return {nef::approximation_of(p[0]), nef::approximation_of(p[1]), nef::approximation_of(p[2])};
 }
 
+// Of the few cases that the sanitizers try, none may be of a kind: each answer is checked there, but they are not
+// counted.
+#ifdef NEF_SANITIZED
+constexpr bool kManyCases = false;
+#else
+constexpr bool kManyCases = true;
+#endif
+
 // A point of a grid of thirds, or next to one.
 Rational3 random_point() {
   Rational3 p;
@@ -68,6 +76,7 @@ TEST_CASE("crossing filter: what is sure is so") {
     RC_ASSERT(at != from);
     RC_ASSERT(at != to);
   });
+  if (!kManyCases) return;
   if (nef::kFastPaths) {
     CHECK(told[0] > 0);
     CHECK(told[1] > 0);
@@ -108,7 +117,7 @@ TEST_CASE("crossing filter: facets with many corners are told by rows") {
     const Rational3 at = common.complex().points.rational(nef::PointId{0U});
     RC_ASSERT(nef::locate(facet, at).kind == nef::Location::Kind::kFacet);
   });
-  if (nef::kFastPaths) {
+  if (kManyCases && nef::kFastPaths) {
     CHECK(told[0] > 30);
     CHECK(told[1] > 30);
   }

@@ -106,7 +106,8 @@ class ViewFit {
       const cv::Vec2d& n = view_.borders[i].direction;
       OwnVector own = (n[0] * d.own.row(row) + n[1] * d.own.row(row + 1)).transpose();
       own[kPoseNumbers] = 1;
-      const Eigen::VectorXd of_lens = (n[0] * d.lens.row(row) + n[1] * d.lens.row(row + 1)).transpose();
+      Eigen::VectorXd of_lens(d.lens.cols());  // none for a lens that stays: a row of no columns has no address
+      for (Eigen::Index k = 0; k < of_lens.size(); ++k) of_lens[k] = n[0] * d.lens(row, k) + n[1] * d.lens(row + 1, k);
       own_ += weight * own * own.transpose();
       own_slope_ += weight * off[i] * own;
       by_lens_ += weight * own * of_lens.transpose();

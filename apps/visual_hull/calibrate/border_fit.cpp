@@ -23,6 +23,8 @@ constexpr int kLensNumbers = 9;         // fx, fy, cx, cy, k1, k2, p1, p2, k3
 
 using OwnMatrix = Eigen::Matrix<double, kOwn, kOwn>;
 using OwnVector = Eigen::Matrix<double, kOwn, 1>;
+using LensMatrix = Eigen::Matrix<double, kLensNumbers, kLensNumbers>;
+using LensVector = Eigen::Matrix<double, kLensNumbers, 1>;
 
 // Which of the lens's nine numbers move with each number that is free.
 Eigen::MatrixXd free_numbers(const BoardLens& lens) {
@@ -47,7 +49,7 @@ Eigen::MatrixXd free_numbers(const BoardLens& lens) {
   return result;
 }
 
-void move(Lens& lens, const Eigen::VectorXd& by) {
+void move(Lens& lens, const LensVector& by) {
   lens.fx += by[0];
   lens.fy += by[1];
   lens.cx += by[2];
@@ -57,45 +59,43 @@ void move(Lens& lens, const Eigen::VectorXd& by) {
 }
 
 /// How images of points move: two rows a point, with a view's own numbers (the last one does not move them) and with
-/// the free ones of the lens.
+/// those of the lens.
 struct Derivatives {
   Eigen::Matrix<double, Eigen::Dynamic, kOwn> own;
-  Eigen::MatrixXd lens;
+  Eigen::Matrix<double, Eigen::Dynamic, kLensNumbers> lens;
 };
 
-Derivatives derivatives_of(const std::vector<cv::Point3d>& points, const Lens& lens, const OpenCvPose& pose,
-                           const Eigen::MatrixXd& free) {
+Derivatives derivatives_of(const std::vector<cv::Point3d>& points, const Lens& lens, const OpenCvPose& pose) {
   const cv::Mat j = derivatives_of_seen(points, lens, pose);
   const auto rows = static_cast<Eigen::Index>(j.rows);
   Derivatives result{Eigen::Matrix<double, Eigen::Dynamic, kOwn>::Zero(rows, kOwn),
-                     Eigen::MatrixXd::Zero(rows, kLensNumbers)};
+                     Eigen::Matrix<double, Eigen::Dynamic, kLensNumbers>::Zero(rows, kLensNumbers)};
   for (int i = 0; i < j.rows; ++i) {
     for (int k = 0; k < kPoseNumbers; ++k) result.own(i, k) = j.at<double>(i, k);
     for (int k = 0; k < std::min(kLensNumbers, j.cols - kPoseNumbers); ++k) {
       result.lens(i, k) = j.at<double>(i, kPoseNumbers + k);
     }
   }
-  result.lens = Eigen::MatrixXd(result.lens * free);
   return result;
 }
 
 /// One view in the course of the fit.
 class ViewFit {
  public:
-  ViewFit(const BorderView& view, int free) : view_(view), pose_(OpenCvPose::of(view.pose)), by_lens_(kOwn, free) {
+  explicit ViewFit(const BorderView& view) : view_(view), pose_(OpenCvPose::of(view.pose)) {
     for (const SeenBorder& b : view.borders) points_.push_back(b.at);
   }
 
   // The equations at the current numbers, with weights from what borders are off by.
-  void set_up(const Lens& lens, const Eigen::MatrixXd& free) {
+  void set_up(const Lens& lens) {
     const std::vector<double> off = distances(lens);
     const double least = kTukey * scale_of(off);
-    const Derivatives d = derivatives_of(points_, lens, pose_, free);
+    const Derivatives d = derivatives_of(points_, lens, pose_);
     own_.setZero();
     own_slope_.setZero();
     by_lens_.setZero();
-    lens_.setZero(free.cols(), free.cols());
-    lens_slope_.setZero(free.cols());
+    lens_.setZero();
+    lens_slope_.setZero();
     squares_ = 0;
     kept_ = 0;
     for (std::size_t i = 0; i < off.size(); ++i) {
@@ -106,8 +106,7 @@ class ViewFit {
       const cv::Vec2d& n = view_.borders[i].direction;
       OwnVector own = (n[0] * d.own.row(row) + n[1] * d.own.row(row + 1)).transpose();
       own[kPoseNumbers] = 1;
-      Eigen::VectorXd of_lens(d.lens.cols());  // none for a lens that stays: a row of no columns has no address
-      for (Eigen::Index k = 0; k < of_lens.size(); ++k) of_lens[k] = n[0] * d.lens(row, k) + n[1] * d.lens(row + 1, k);
+      const LensVector of_lens = (n[0] * d.lens.row(row) + n[1] * d.lens.row(row + 1)).transpose();
       own_ += weight * own * own.transpose();
       own_slope_ += weight * off[i] * own;
       by_lens_ += weight * own * of_lens.transpose();
@@ -120,13 +119,13 @@ class ViewFit {
   }
 
   // What is left of the equations for the lens.
-  void add_to(Eigen::MatrixXd& matrix, Eigen::VectorXd& slope) const {
+  void add_to(LensMatrix& matrix, LensVector& slope) const {
     matrix += lens_ - by_lens_.transpose() * inverse_ * by_lens_;
     slope += lens_slope_ - by_lens_.transpose() * (inverse_ * own_slope_);
   }
 
   // A step, with that of the lens.
-  void step(const Eigen::VectorXd& lens) {
+  void step(const LensVector& lens) {
     const OwnVector by = -inverse_ * (own_slope_ + by_lens_ * lens);
     for (int k = 0; k < 3; ++k) {
       pose_.rotation.at<double>(k) += by[k];
@@ -137,10 +136,10 @@ class ViewFit {
 
   // What the images of points are off by, root mean square, if borders are off by `noise` and the lens has this inverse
   // matrix of its equations.
-  [[nodiscard]] double off_px(const std::vector<cv::Point3d>& points, const Lens& lens, const Eigen::MatrixXd& free,
-                              double noise, const Eigen::MatrixXd& lens_inverse) const {
-    const Derivatives d = derivatives_of(points, lens, pose_, free);
-    const Eigen::MatrixXd by_lens = d.lens - d.own * inverse_ * by_lens_;
+  [[nodiscard]] double off_px(const std::vector<cv::Point3d>& points, const Lens& lens, double noise,
+                              const LensMatrix& lens_inverse) const {
+    const Derivatives d = derivatives_of(points, lens, pose_);
+    const Eigen::Matrix<double, Eigen::Dynamic, kLensNumbers> by_lens = d.lens - d.own * inverse_ * by_lens_;
     const double squares =
         (by_lens * lens_inverse * by_lens.transpose()).trace() + (d.own * inverse_ * d.own.transpose()).trace();
     return noise * std::sqrt(squares / static_cast<double>(points.size()));
@@ -176,9 +175,9 @@ class ViewFit {
   std::vector<cv::Point3d> points_;
   OwnMatrix own_, inverse_;
   OwnVector own_slope_;
-  Eigen::Matrix<double, kOwn, Eigen::Dynamic> by_lens_;
-  Eigen::MatrixXd lens_;
-  Eigen::VectorXd lens_slope_;
+  Eigen::Matrix<double, kOwn, kLensNumbers> by_lens_;
+  LensMatrix lens_;
+  LensVector lens_slope_;
   double squares_ = 0;
   std::size_t kept_ = 0;
 };
@@ -186,25 +185,25 @@ class ViewFit {
 }  // namespace
 
 void fit_borders(BoardLens& lens, std::span<BorderView> views, bool fit_the_lens) {
-  const Eigen::MatrixXd free = fit_the_lens ? free_numbers(lens) : Eigen::MatrixXd(kLensNumbers, 0);
+  const Eigen::MatrixXd free = free_numbers(lens);
   std::vector<ViewFit> fits;
-  for (const BorderView& view : views) fits.emplace_back(view, static_cast<int>(free.cols()));
-  Eigen::MatrixXd inverse(free.cols(), free.cols());
+  for (const BorderView& view : views) fits.emplace_back(view);
+  LensMatrix inverse = LensMatrix::Zero();  // of the equations of the free numbers; zero for those that stay
   for (int step = 0; step <= kFitSteps; ++step) {
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(free.cols(), free.cols());
-    Eigen::VectorXd slope = Eigen::VectorXd::Zero(free.cols());
+    LensMatrix matrix = LensMatrix::Zero();
+    LensVector slope = LensVector::Zero();
     for (ViewFit& fit : fits) {
-      fit.set_up(lens.lens, free);
+      fit.set_up(lens.lens);
       fit.add_to(matrix, slope);
     }
-    if (free.cols() > 0) inverse = matrix.inverse();
+    if (fit_the_lens) inverse = free * (free.transpose() * matrix * free).inverse() * free.transpose();
     if (step == kFitSteps) break;
-    const Eigen::VectorXd by = -inverse * slope;
+    const LensVector by = -inverse * slope;
     for (ViewFit& fit : fits) fit.step(by);
-    move(lens.lens, free * by);
+    move(lens.lens, by);
   }
   double squares = 0;
-  double spare = -static_cast<double>(free.cols());
+  double spare = fit_the_lens ? -static_cast<double>(free.cols()) : 0;
   for (const ViewFit& fit : fits) {
     squares += fit.squares();
     spare += static_cast<double>(fit.kept()) - kOwn;
@@ -215,9 +214,9 @@ void fit_borders(BoardLens& lens, std::span<BorderView> views, bool fit_the_lens
     views[i].pose = fit.pose();
     views[i].kept = fit.kept();
     views[i].error_px = std::sqrt(fit.squares() / std::max<double>(1, static_cast<double>(fit.kept())));
-    views[i].off_px = fit.off_px(things_on_board(fit.points()), lens.lens, free, noise, inverse);
+    views[i].off_px = fit.off_px(things_on_board(fit.points()), lens.lens, noise, inverse);
   }
-  if (free.cols() > 0) lens.focal_share = noise * std::sqrt(inverse(0, 0)) / lens.lens.fx;
+  if (fit_the_lens) lens.focal_share = noise * std::sqrt(inverse(0, 0)) / lens.lens.fx;
 }
 
 }  // namespace nef::visual_hull

@@ -183,6 +183,7 @@ class Run {
     const WorkFolder work(session_.output);
     std::optional<PieceList> pieces;
     on_first([&] {
+      session_.require_output();
       pieces.emplace(session_.inputs, list_, session_.mesh);
       if (pieces->size() == 0) throw InputError("no pieces: name files, or give a --list");
       job_text_ = job("union") + pieces->identity();
@@ -201,6 +202,7 @@ class Run {
     const WorkFolder work(session_.output);
     std::vector<Polyhedron> sets;
     on_first([&] {
+      session_.require_output();
       if (session_.inputs.size() != 2) throw InputError("give two sets, or one and --offset");
       if (inner_) throw InputError("--inner goes with --offset");
       sets = session_.load_all(session_.inputs);
@@ -232,6 +234,7 @@ class Run {
       regions.emplace(set, radius, splits, side, session_.monitor);
     };
     on_first([&] {
+      session_.require_output();
       if (session_.inputs.size() != 1) throw InputError("--offset takes one set");
       job_text_ = offset_job();
       prepare();

@@ -102,8 +102,8 @@ def test_sums_in_tiles(needs):
 
 def test_simplified_offset(needs):
     minkowski = needs("minkowski")
-    ball = nef.sphere(1, 200)
-    found = minkowski.simplified_offset(ball, 1 / 4, triangles=100, digits=3, detail=2)
+    ball = nef.sphere(1, 60)
+    found = minkowski.simplified_offset(ball, 1 / 4, triangles=40, digits=3, detail=2)
     exact = minkowski.offset(ball, 1 / 4, 2)
     assert exact <= found.set and found.set <= minkowski.offset(ball, 1 / 4 + found.error, 2)
     assert all((x * 1000).denominator == 1 for point in found.set.to_mesh(exact=True)[0] for x in point)

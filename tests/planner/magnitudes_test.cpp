@@ -103,10 +103,12 @@ TEST_CASE("planner at any magnitude: poses and motions that turn freely", "[boun
   }
   CHECK(collisions > 2);
   CHECK(collisions < 11);
+  std::size_t first = 0;
   for (const long exponent : kFewExponents) {
     const Rational factor = power_of_two(exponent);
     const MotionChecker large = MotionChecker::of_scene(scaled(scene, factor));
-    for (std::size_t i = 0; i < cases.size(); i += 5 / nef::test::fewer(5)) {
+    first = 1 - first;  // every other case each time
+    for (std::size_t i = first; i < cases.size(); i += 2 * (5 / nef::test::fewer(5))) {
       INFO("case " << i << " times 2^" << exponent);
       const RigidPose from = scaled(cases[i].from, factor);
       CHECK((large.check(from).status == Status::kCollides) == cases[i].collides);

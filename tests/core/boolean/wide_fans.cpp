@@ -157,7 +157,7 @@ TEST_CASE("Faces around a vertex of high degree meet where all pairs of them do"
         REQUIRE(surface.triangles.size() == mesh.face_count());
         const std::set<Pair> found = candidates(mesh);
         std::size_t meeting = 0;
-        const std::uint32_t step = 5 / test::fewer(5);
+        const std::uint32_t step = 15 / test::fewer(5);  // every third pair
         for (std::uint32_t t = 0; t < mesh.face_count(); ++t) {
           for (std::uint32_t u = t + 1; u < mesh.face_count(); u += step) {
             if (!meet_beyond(mesh, t, u)) continue;
@@ -165,7 +165,7 @@ TEST_CASE("Faces around a vertex of high degree meet where all pairs of them do"
             REQUIRE(found.count({t, u}) == 1);
           }
         }
-        CHECK(meeting > test::fewer(100));
+        CHECK(meeting > test::fewer(40));
       }
     }
   }

@@ -96,7 +96,7 @@ class GlbWriter {
       // It turns about its pivot: the node is there, and what it holds is moved back.
       const Point pivot = pivot_of(layer.motion);
       nodes_[top]["translation"] = pivot;
-      nodes_[top]["children"] = {++node};
+      nodes_[top]["children"] = Json::array({++node});
       nodes_.push_back(
           {{"name", layer.name + ", about its pivot"}, {"translation", {-pivot[0], -pivot[1], -pivot[2]}}});
     }

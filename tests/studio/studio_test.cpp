@@ -127,7 +127,7 @@ TEST_CASE("Details of an item of the last scene") {
   const Json request{{"page", "a"}, {"panel", "sets"}, {"text", "interior(box(0,0,0, 1,1,1/3))"}};
   const Json scene = compute(studio, request).report["scene"];
   const Json vertex = answer(studio, "item", {{"scene", scene}, {"layer", 0}, {"vertices", {7}}});
-  CHECK(vertex["points"] == Json({"1 1 1/3"}));
+  CHECK(vertex["points"] == Json::array({"1 1 1/3"}));
   CHECK(vertex["spheres"]["begin"] == Json({0, 0, 0, 0, 3, 3, 0, 2}));
   CHECK(vertex["spheres"]["dots"].size() == 6);
   const Json facet = answer(studio, "item", {{"scene", scene}, {"layer", 0}, {"facet", 0}});
@@ -263,8 +263,8 @@ TEST_CASE("Planner: obstacles that rest are kept, and files are read again when 
     CHECK(facets_of(moved.scene, "obstacles") == 0);  // a piece
     REQUIRE(moved.report["pieces"].size() == 1);
     CHECK(moved.report["pieces"][0][0].get<int>() > 0);
-    CHECK((moved.report["pieces"][0][1] == 0) == (request["has"] == Json({moved.report["pieces"][0][0]})));
-    request["has"] = {moved.report["pieces"][0][0]};
+    CHECK((moved.report["pieces"][0][1] == 0) == (request["has"] == Json::array({moved.report["pieces"][0][0]})));
+    request["has"] = Json::array({moved.report["pieces"][0][0]});
     CHECK(facets_of(moved.scene, "obstacle 7") == 6);
     CHECK(moved.report["answer"]["status"] == "path");
   }
@@ -314,7 +314,7 @@ TEST_CASE("Hulls: views switched off, and images of the scene") {
   CHECK(some.report["overlay"]["view"] == 3);
   CHECK(some.report["result"]["volume_double"].get<double>() > volume);
   CHECK(some.scene["layers"].size() == 2);  // the hull, and cameras with their outlines
-  request["off"] = {12};
+  request["off"] = Json::array({12});
   answer(studio, "compute", request, 422);
   request["off"] = Json::array();
   request["simplify"] = "much";
@@ -358,7 +358,7 @@ TEST_CASE("The state is kept in a file, and no page overwrites what another one 
   answer(studio, "state", {{"text", "{\"b\": 2}"}, {"revision", 0}, {"overwrite", true}});
   CHECK(answer(studio, "start", {})["state"] == "{\"b\": 2}");
   Studio named({.root = place.root, .files = {"cube.off", "studio.nefstudio"}}, [] {});
-  CHECK(answer(named, "start", {})["files"] == Json({"cube.off"}));
+  CHECK(answer(named, "start", {})["files"] == Json::array({"cube.off"}));
   CHECK_THROWS_AS(Studio({.root = place.root, .files = {"../outside.off"}}, [] {}), InputError);
 }
 

@@ -409,7 +409,7 @@ TEST_CASE("planner --assembly: reports, exit codes, pages") {
   nef::test::check_report_shape(report, "assembly");
   CHECK(report["status"] == "sequence");
   REQUIRE(report["steps"].size() == 2);
-  CHECK(report["steps"][0]["parts"] == nlohmann::json{"pin"});
+  CHECK(report["steps"][0]["parts"] == nlohmann::json::array({"pin"}));
   CHECK(report["steps"][0]["straight"] == true);
   CHECK(report["steps"][0]["path"][0] == nlohmann::json{"0", "0", "0"});
   CHECK(std::filesystem::file_size(folder.file("p.html")) > 1000);

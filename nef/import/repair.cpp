@@ -115,7 +115,9 @@ class Repairer {
       result_.holes = border_loops(faces_.rings).size();
       return;
     }
-    const Lids lids = lids_for(faces_.vertices, faces_.rings, LidShape::kAny, monitor_);
+    Lids lids = lids_for(faces_.vertices, faces_.rings, LidShape::kAny, monitor_);
+    if (drop_flat_pieces(faces_, lids, monitor_))
+      lids = lids_for(faces_.vertices, faces_.rings, LidShape::kAny, monitor_);
     result_.holes = lids.holes;
     result_.flat_holes = lids.flat;
     result_.lid_share = lids.share;

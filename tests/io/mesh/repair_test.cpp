@@ -572,6 +572,27 @@ TEST_CASE("Flat pieces beside others are left out, as no lid makes them enclose 
   CHECK_FALSE(repair_mesh(plates, {.close_percent = 100, .crossings = Crossings::kUnion}).problem.empty());
 }
 
+TEST_CASE("Flat walls stay where what they enclose together counts", "[repair][lids]") {
+  // Five plates that stick out beyond each other, below a gable roof: a room, without a side in common.
+  const Mesh room = read_off(
+      "OFF\n26 7 0\n-1 -2 -2\n-1 2 -2\n-1 2 2\n-1 -2 2\n1 -2 -2\n1 2 -2\n1 2 2\n1 -2 2\n-2 -1 -2\n-2 -1 2\n2 -1 2\n2 "
+      "-1 -2\n"
+      "-2 1 -2\n-2 1 2\n2 1 2\n2 1 -2\n-2 -2 -1\n2 -2 -1\n2 2 -1\n-2 2 -1\n-2 -2 1/2\n2 -2 1/2\n2 0 1\n-2 0 1\n2 2 "
+      "1/2\n-2 2 1/2\n"
+      "4 3 2 1 0\n4 4 5 6 7\n4 11 10 9 8\n4 12 13 14 15\n4 19 18 17 16\n4 20 21 22 23\n4 23 22 24 25\n",
+      "room.off");
+  const RepairedMesh outside = repair_mesh(room, {.close_percent = 100, .crossings = Crossings::kOutside});
+  INFO(outside.problem);
+  REQUIRE(outside.problem.empty());
+  CHECK(contains(outside.set, {0, 0, 0}));
+  CHECK_FALSE(contains(outside.set, {0, 0, Rational(3, 2)}));
+  // By winding numbers, nothing but the roof with its lid encloses anything.
+  const RepairedMesh wound = repair_mesh(room, {.close_percent = 100, .crossings = Crossings::kUnion});
+  CHECK_FALSE(contains(wound.set, {0, 0, 0}));
+  CHECK(std::any_of(wound.done.begin(), wound.done.end(),
+                    [](const std::string& line) { return line.find("5 flat pieces (5 faces) left out") == 0; }));
+}
+
 TEST_CASE("A side that slits separate from the others is a side still", "[repair][lids]") {
   // A cube whose upper square lacks the vertices that stand out a little from the upper sides of the others.
   Mesh box = read_off(

@@ -9,7 +9,8 @@ numbers decide, nothing is guessed), then by `nef repair --crossings union --clo
 is a guess). What none of them takes, or only with lids of more than PERCENT of the area, is refused. Seconds are CPU time of the run
 that decided. A run above the limits of time or memory, or that ends by a signal, is a failure, and so are volumes for each winding
 number that do not add up to the signed volume; the exit code is 1 then. Files that hold no faces (points, lines, nothing) are counted
-by themselves. The summary has the causes of refusals, and how many meshes become solids with lids of at most 10, 30 and 100 %.
+by themselves. The summary has the causes of refusals, and how many meshes become solids with lids of at most 10, 30 and 100 %, of all
+and of those that enclose something under some lid.
 """
 import argparse
 import json
@@ -42,7 +43,7 @@ class Run:
 
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         try:
-            done = subprocess.run(arguments, capture_output=True, text=True, errors="replace", timeout=4 * seconds,
+            done = subprocess.run(arguments, capture_output=True, text=True, errors="replace", timeout=20 * seconds,
                                   preexec_fn=limit, check=False)
             self.code, self.out, self.err = done.returncode, done.stdout, done.stderr
         except subprocess.TimeoutExpired:
@@ -144,9 +145,12 @@ def summarize(rows, close):
         line(verdict, sum(row["verdict"] == verdict for row in meshes))
     for cause, text, _ in CAUSES[1:]:
         line("refused, as " + text, sum(row["cause"] == cause for row in meshes))
+    solid = [row for row in meshes if row["cause"] not in ("flat", "damaged")]
     for limit in sorted({*LIMITS, close}):
-        line(f"solids with --close={limit:g}", sum(row["verdict"] in VERDICTS[:3] or row["lids"] is not None and row["lids"] <= limit
-                                                 for row in meshes))
+        count = sum(row["verdict"] in VERDICTS[:3] or row["lids"] is not None and row["lids"] <= limit for row in meshes)
+        line(f"solids with --close={limit:g}", count)
+        if solid:
+            print(f"{'  of the ' + str(len(solid)) + ' that enclose something':64}{'':6}  {100 * count / len(solid):5.1f} %")
 
 
 def main():

@@ -60,7 +60,8 @@ void add_close_option(CLI::App& app, double& percent) {
   app.add_flag(
          is_free ? "--close{10},--close-holes{10}" : "--close-holes{10}", percent,
          "Repair meshes that do not bound a solid, and close all holes with lids: flat ones on planar holes, triangles "
-         "of least area on others. Lids are a guess. PERCENT is their largest accepted share of the area (default 10)")
+         "of least area on others; open pieces in one plane are left out. Lids are a guess. PERCENT is their largest "
+         "accepted share of the area (default 10)")
       ->type_name("[=PERCENT]")
       ->check(CLI::Range(0.0, 100.0).description(""));
 }

@@ -115,7 +115,12 @@ class Repairer {
       result_.holes = border_loops(faces_.rings).size();
       return;
     }
-    const Lids lids = lids_for(faces_.vertices, faces_.rings, LidShape::kAny, monitor_);
+    Lids lids = lids_for(faces_.vertices, faces_.rings, LidShape::kAny, monitor_);
+    // By the other rules, flat pieces may enclose something together.
+    const bool lids_cancel = is_signed(options_.crossings) || options_.crossings == Crossings::kOdd;
+    if (lids_cancel && drop_flat_pieces(faces_, lids, monitor_)) {
+      lids = lids_for(faces_.vertices, faces_.rings, LidShape::kAny, monitor_);
+    }
     result_.holes = lids.holes;
     result_.flat_holes = lids.flat;
     result_.lid_share = lids.share;

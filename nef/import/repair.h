@@ -19,7 +19,9 @@ namespace nef {
 struct RepairOptions {
   bool fill_holes = false;   ///< close planar holes with a face
   double close_percent = 0;  ///< close all holes, with triangles of least area where they are not planar, if lids have
-                             ///< no more than this share in the area of the mesh with its lids
+                             ///< no more than this share in the area of the mesh with its lids; open pieces in one
+                             ///< plane are left out, if there are others, but for
+                             ///< kOutside and kGuess
   Crossings crossings = Crossings::kRefuse;  ///< what to do with faces that cross when all else is done
   bool strict = false;                       ///< refuse faces that are not exactly planar, like MeshOptions::strict
   bool record = false;                       ///< fill RepairedMesh::record
@@ -48,7 +50,8 @@ struct RepairedMesh {
 /// between solids (without_copies), faces without area go and the vertices in the sides of their neighbours become
 /// corners of these, faces are turned to fit their neighbours, and components that cross no other are turned outward
 /// or, inside an odd number of others, inward. Holes whose border lies in a plane are filled if the options say so,
-/// and any others by triangles of least area (least_area_triangles).
+/// and any others by triangles of least area (least_area_triangles), without open pieces that lie in one plane
+/// (drop_flat_pieces), unless the rule is kOutside or kGuess.
 /// A surface that cannot be oriented is refused, unless the rule is kOdd, kOutside or kGuess.
 /// What crosses itself then, or encloses something several times, is resolved by the rule; with a rule, components stay
 /// outward inside of others unless some of their faces were turned, as the rule has an answer to them. O(n log n), and

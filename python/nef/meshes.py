@@ -84,6 +84,7 @@ def from_mesh(vertices: Any, faces: Any = None, *, strict: bool = False, surface
       number of at least one half). A warning reports the choice. "odd" and "outside" ignore the orientation of faces
     - close: a percentage; True is 10, as of `nef repair --close` without a number. If above 0, a mesh that does not bound a solid is repaired as by
       `nef repair --close`: its holes get lids if these have at most this percentage of the area of the mesh with lids.
+      Open pieces that lie in one plane are left out, unless the rule is "outside" or "guess".
       Lids are a guess, and reported as a warning
 
     A mesh may touch itself; a mesh without vertices and faces is the empty set (with a warning). Raises InputError if the

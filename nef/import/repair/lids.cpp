@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Loops: sides with their balance (how often they are run through one way less the other) leave a graph in which as
-// many arrows come to a vertex as leave it. A walk along unused arrows comes back to where it began; whenever it comes
-// to a vertex that it has passed, the loop since then is cut off.
+// many arrows come to a vertex as leave it. From the end of an arrow, breadth first, the shortest way leads back to its
+// beginning. So a crack between two parts, whose borders share some vertices, gets a sliver from each such vertex to
+// the next, instead of a lid over each part.
 //
 // Triangles: by dynamic programming over chains of the loop, each split where its two parts and the triangle over them
 // have the least area in sum. Of long loops, ears are cut off in the order of their areas first.
@@ -11,10 +12,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <queue>
-#include <unordered_map>
 #include <utility>
 
 #include "nef/geometry/vectors.h"
@@ -47,6 +49,81 @@ std::map<std::pair<std::uint32_t, std::uint32_t>, int> balance_of_sides(const st
   }
   return open;
 }
+
+// The sides that faces leave open, each as an arrow against its faces.
+class BorderGraph {
+ public:
+  explicit BorderGraph(const std::map<std::pair<std::uint32_t, std::uint32_t>, int>& balances) {
+    for (const auto& [side, balance] : balances) vertices_.insert(vertices_.end(), {side.first, side.second});
+    std::sort(vertices_.begin(), vertices_.end());
+    vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+    next_.resize(vertices_.size());
+    for (const auto& [side, balance] : balances) {
+      const auto [from, to] = balance > 0 ? std::pair(side.second, side.first) : side;
+      Ring& ways = next_[place_of(from)];
+      ways.insert(ways.end(), static_cast<std::size_t>(std::abs(balance)), place_of(to));
+    }
+    seen_.assign(vertices_.size(), 0);
+    before_.assign(vertices_.size(), 0);
+  }
+
+  /// Takes the shortest loop through one arrow after the other, until none is left. Places with many ways come first:
+  /// a search that comes to one looks at all of them, but not at those of its start.
+  std::vector<Ring> take_loops() {
+    Ring starts(next_.size());
+    std::iota(starts.begin(), starts.end(), 0U);
+    std::stable_sort(starts.begin(), starts.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return next_[a].size() > next_[b].size(); });
+    std::vector<Ring> loops;
+    for (const std::uint32_t start : starts) {
+      while (!next_[start].empty()) loops.push_back(take_loop(start));
+    }
+    return loops;
+  }
+
+ private:
+  [[nodiscard]] std::uint32_t place_of(std::uint32_t vertex) const {
+    return static_cast<std::uint32_t>(std::lower_bound(vertices_.begin(), vertices_.end(), vertex) - vertices_.begin());
+  }
+
+  // As many arrows come to each place as leave it, so the search along them gets back.
+  Ring take_loop(std::uint32_t start) {
+    ++round_;
+    Ring reached{next_[start].back()};
+    seen_[reached[0]] = round_;
+    for (std::size_t i = 0; seen_[start] != round_; ++i) {
+      for (const std::uint32_t to : next_[reached[i]]) {
+        if (seen_[to] == round_) continue;
+        seen_[to] = round_;
+        before_[to] = reached[i];
+        reached.push_back(to);
+      }
+    }
+    Ring loop{vertices_[start]};
+    std::uint32_t to = start;
+    while (to != reached[0]) {
+      const std::uint32_t from = before_[to];
+      take_arrow(from, to);
+      loop.push_back(vertices_[from]);
+      to = from;
+    }
+    take_arrow(start, to);
+    std::reverse(loop.begin() + 1, loop.end());
+    return loop;
+  }
+
+  void take_arrow(std::uint32_t from, std::uint32_t to) {
+    Ring& ways = next_[from];
+    // From the back: there is the arrow with which a search begins.
+    ways.erase(std::next(std::find(ways.rbegin(), ways.rend(), to)).base());
+  }
+
+  Ring vertices_;
+  std::vector<Ring> next_;             // where the arrows of a place lead
+  std::vector<std::uint32_t> before_;  // the place from which the search came
+  std::vector<std::uint64_t> seen_;    // the last search that came to a place
+  std::uint64_t round_ = 0;
+};
 
 double area(const Double3& a, const Double3& b, const Double3& c) {
   const Double3 n = cross(minus(b, a), minus(c, a));
@@ -199,34 +276,8 @@ bool is_flat(std::span<const Rational3> vertices, const Ring& loop, const Monito
 }  // namespace
 
 std::vector<Ring> border_loops(const std::vector<Ring>& rings) {
-  std::map<std::uint32_t, Ring> next;  // where unused arrows lead
-  for (const auto& [side, balance] : balance_of_sides(rings)) {
-    const auto [from, to] = balance > 0 ? std::pair(side.second, side.first) : side;
-    next[from].insert(next[from].end(), static_cast<std::size_t>(std::abs(balance)), to);
-  }
-  std::vector<Ring> loops;
-  for (auto& [start, ways] : next) {
-    while (!ways.empty()) {
-      Ring path{start};
-      std::unordered_map<std::uint32_t, std::size_t> place{{start, 0}};
-      while (!path.empty()) {
-        Ring& out = next[path.back()];
-        if (out.empty()) break;  // back at the start, and nothing is left of the path but it
-        const std::uint32_t to = out.back();
-        out.pop_back();
-        const auto [at, is_new] = place.emplace(to, path.size());
-        if (is_new) {
-          path.push_back(to);
-          continue;
-        }
-        const auto first = path.begin() + static_cast<std::ptrdiff_t>(at->second);
-        loops.emplace_back(first, path.end());
-        for (auto v = first + 1; v != path.end(); ++v) place.erase(*v);
-        path.erase(first + 1, path.end());
-      }
-    }
-  }
-  return loops;
+  BorderGraph border(balance_of_sides(rings));
+  return border.take_loops();
 }
 
 std::vector<Ring> least_area_triangles(std::span<const Rational3> vertices, const Ring& loop) {

@@ -15,7 +15,9 @@ namespace nef {
 
 /// The border of faces as closed loops, each of which names a vertex at most once: the sides that faces run through
 /// more often one way than the other, against these faces and as often as that. There are always loops, since what
-/// faces leave open is closed itself. `rings` holds the corners of faces. O(n log n).
+/// faces leave open is closed itself. Each is one of the fewest sides through one of its sides, given those before it.
+/// `rings` holds the corners of faces. O(n log n), and for each loop a breadth-first search of as many steps as it has
+/// sides.
 std::vector<std::vector<std::uint32_t>> border_loops(const std::vector<std::vector<std::uint32_t>>& rings);
 
 /// Cuts a loop into triangles of the least area in sum; [Barequet, Sharir 1995]. O(n^3) for n corners; from more than

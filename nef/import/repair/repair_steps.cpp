@@ -15,6 +15,7 @@
 #include "nef/geometry/ids.h"
 #include "nef/geometry/search/box_tree.h"
 #include "nef/import/repair/doubled_faces.h"
+#include "nef/import/repair/turn_components.h"
 #include "nef/mesh/edge_order.h"
 #include "nef/mesh/mesh_piece.h"
 #include "nef/mesh/surface/mesh_surface.h"
@@ -84,6 +85,27 @@ void keep_faces(MeshInRepair& mesh, std::vector<Ring> rings, const std::vector<s
   mesh.rings = std::move(rings);
 }
 
+// Returns how many go.
+std::size_t drop_faces(MeshInRepair& mesh, const std::vector<bool>& goes, FaceFate fate) {
+  std::size_t kept = 0;
+  for (std::size_t f = 0; f < goes.size(); ++f) {
+    if (goes[f]) {
+      mesh.fates[mesh.sources[f]] = fate;
+      continue;
+    }
+    mesh.sources[kept] = mesh.sources[f];
+    mesh.turned_over[kept] = mesh.turned_over[f];
+    mesh.turned[kept] = mesh.turned[f];
+    if (kept != f) mesh.rings[kept] = std::move(mesh.rings[f]);
+    ++kept;
+  }
+  mesh.sources.resize(kept);
+  mesh.turned_over.resize(kept);
+  mesh.turned.resize(kept);
+  mesh.rings.resize(kept);
+  return goes.size() - kept;
+}
+
 // Faces that are there again, turned alike, go if they are closed by themselves: then all sides stay balanced.
 void drop_repeated(MeshInRepair& mesh) {
   const std::vector<std::uint32_t> again = repeated(mesh.rings);
@@ -108,6 +130,16 @@ SideUses uses_of_sides(const std::vector<Ring>& rings, const std::vector<bool>& 
     for_each_side(rings[f], [&](std::uint32_t u, std::uint32_t v) { uses[edge_key(u, v)].push_back({f, u < v}); });
   }
   return uses;
+}
+
+// True if there are no points off it.
+bool lie_in_one_plane(const MeshPoints& points, const Ring& corners, const Monitor& monitor) {
+  std::size_t second = 1;
+  while (second < corners.size() && points.compare(corners[0], corners[second]) == 0) ++second;
+  std::size_t third = second + 1;
+  while (third < corners.size() && points.collinear(corners[0], corners[second], corners[third], monitor)) ++third;
+  return third + 1 >= corners.size() ||
+         points.coplanar(corners[0], corners[second], corners[third], std::span(corners).subspan(third + 1));
 }
 
 }  // namespace
@@ -175,21 +207,12 @@ void drop_copies(MeshInRepair& mesh) {
 
 void drop_faces_without_area(MeshInRepair& mesh, const Monitor& monitor) {
   const MeshSurface surface(mesh.mesh(), monitor);
-  std::vector<Ring> kept;
-  for (std::size_t f = 0; f < mesh.rings.size(); ++f) {
+  std::vector<bool> goes(mesh.rings.size(), false);
+  for (std::size_t f = 0; f < goes.size(); ++f) {
     const FaceDefect defect = surface.defects[f];
-    if (defect == FaceDefect::kNoArea || defect == FaceDefect::kTooFewCorners) {
-      mesh.fates[mesh.sources[f]] = FaceFate::kNoArea;
-      continue;
-    }
-    mesh.sources[kept.size()] = mesh.sources[f];
-    mesh.turned_over[kept.size()] = mesh.turned_over[f];
-    kept.push_back(std::move(mesh.rings[f]));
+    goes[f] = defect == FaceDefect::kNoArea || defect == FaceDefect::kTooFewCorners;
   }
-  mesh.sources.resize(kept.size());
-  mesh.turned_over.resize(kept.size());
-  mesh.note(mesh.rings.size() - kept.size(), "face", "faces", "without area dropped");
-  mesh.rings = std::move(kept);
+  mesh.note(drop_faces(mesh, goes, FaceFate::kNoArea), "face", "faces", "without area dropped");
 }
 
 void split_sides(MeshInRepair& mesh, OpenSides which, const Monitor& monitor) {
@@ -259,15 +282,36 @@ void turn_to_neighbours(MeshInRepair& mesh) {
 }
 
 bool is_flat(const MeshInRepair& mesh, const Monitor& monitor) {
-  std::vector<std::uint32_t> corners;
+  Ring corners;
   for (const Ring& ring : mesh.rings) corners.insert(corners.end(), ring.begin(), ring.end());
+  return lie_in_one_plane(MeshPoints(mesh.vertices), corners, monitor);
+}
+
+bool drop_flat_pieces(MeshInRepair& mesh, const Lids& lids, const Monitor& monitor) {
+  if (lids.flat == 0) return false;
+  MeshInRepair closed = mesh;
+  put_on(closed, lids);
   const MeshPoints points(mesh.vertices);
-  std::size_t second = 1;
-  while (second < corners.size() && points.compare(corners[0], corners[second]) == 0) ++second;
-  std::size_t third = second + 1;
-  while (third < corners.size() && points.collinear(corners[0], corners[second], corners[third], monitor)) ++third;
-  return third + 1 >= corners.size() ||
-         points.coplanar(corners[0], corners[second], corners[third], std::span(corners).subspan(third + 1));
+  std::vector<bool> goes(mesh.rings.size(), false);
+  std::size_t pieces = 0;
+  std::size_t faces = 0;
+  for (const Ring& piece : components_by_sides(closed)) {
+    if (piece.back() < goes.size()) continue;  // no lid, as lids come last
+    Ring corners;
+    for (const std::uint32_t f : piece) corners.insert(corners.end(), closed.rings[f].begin(), closed.rings[f].end());
+    if (!lie_in_one_plane(points, corners, monitor)) continue;
+    ++pieces;
+    for (const std::uint32_t f : piece) {
+      if (f >= goes.size()) break;
+      goes[f] = true;
+      ++faces;
+    }
+  }
+  if (faces == 0 || faces == goes.size()) return false;
+  mesh.done.push_back(counted(pieces, "flat piece", "flat pieces") + " (" + counted(faces, "face", "faces") +
+                      ") left out: no lid makes " + (pieces == 1 ? "it" : "them") + " enclose anything");
+  drop_faces(mesh, goes, FaceFate::kInside);
+  return true;
 }
 
 void put_on(MeshInRepair& mesh, const Lids& lids) {

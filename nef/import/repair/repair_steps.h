@@ -73,6 +73,11 @@ void turn_to_neighbours(MeshInRepair& mesh);
 /// True if all corners lie in one plane, or there are none. O(n).
 bool is_flat(const MeshInRepair& mesh, const Monitor& monitor);
 
+/// Open pieces that lie in one plane go, as no lid makes them enclose anything, unless nothing else is left; true if
+/// there are some. Faces belong to one piece if they share sides with each other or with the same of these lids, which
+/// are for all holes. Expected O(n).
+bool drop_flat_pieces(MeshInRepair& mesh, const Lids& lids, const Monitor& monitor);
+
 /// Adds faces that close holes.
 void put_on(MeshInRepair& mesh, const Lids& lids);
 

@@ -127,4 +127,13 @@ TEST_CASE("Loops of the border balance all sides, each vertex once in a loop", "
   }
 }
 
+TEST_CASE("A crack between two parts has a loop for each of its slits", "[lids]") {
+  // A square, and from below an octagon with the same corners: with the others, 4 to 7, it leaves four slits.
+  const Rings loops = border_loops({{0, 1, 2, 3}, {0, 4, 3, 7, 2, 6, 1, 5}});
+  CHECK(loops.size() == 4);
+  for (const auto& loop : loops) CHECK(loop.size() == 3);
+  // Of several turns at a vertex, each loop takes the shortest way back.
+  CHECK(border_loops({{0, 1, 2}, {0, 3, 4, 5}}).size() == 2);
+}
+
 }  // namespace nef

@@ -524,6 +524,94 @@ TEST_CASE("Holes get lids if these are small", "[repair][lids]") {
   CHECK_FALSE(repair_mesh(open, {.close_percent = 10}).is_flat);
 }
 
+TEST_CASE("Flat pieces beside others are left out, as no lid makes them enclose anything", "[repair][lids]") {
+  const Polyhedron cube = make_box({0, 0, 0}, {2, 2, 2});
+  MeshExportOptions polygons;
+  polygons.keep_polygons = true;
+  const Mesh whole = to_mesh(cube, polygons).mesh;
+  const auto beside_a_plate = [](const Mesh& mesh, const std::vector<std::uint32_t>& more, int size = 9) {
+    Mesh result = mesh;
+    std::vector<std::uint32_t> plate = more;  // vertex 0 is the origin
+    for (const Rational3& corner : {Rational3{size, 0, 1}, Rational3{size, size, 2}, Rational3{0, size, 1}}) {
+      plate.push_back(static_cast<std::uint32_t>(result.vertices.size()));
+      result.vertices.push_back(corner);
+    }
+    result.push_face(plate);
+    return result;
+  };
+  // The plate is larger than the cube.
+  const Mesh scene = beside_a_plate(whole, {});
+  CHECK(scene.vertices[0] == Rational3{0, 0, 0});
+  CHECK_THROWS_AS(from_mesh(scene, {.crossings = Crossings::kUnion}), InputError);
+  const RepairedMesh kept = repair_mesh(scene, {.close_percent = 10, .crossings = Crossings::kUnion, .record = true});
+  CHECK(kept.problem.empty());
+  CHECK(equal(kept.set, cube));
+  CHECK_FALSE(kept.has_lids);
+  CHECK(kept.holes == 0);
+  CHECK(kept.done == std::vector<std::string>{"1 flat piece (1 face) left out: no lid makes it enclose anything"});
+  REQUIRE(kept.record.fates.size() == 7);
+  CHECK(kept.record.fates[0] == FaceFate::kKept);
+  CHECK(kept.record.fates[6] == FaceFate::kInside);
+  Messages notes;
+  CHECK(equal(from_mesh(scene, {.close_percent = 10}, &notes), cube));
+  CHECK(notes == kept.done);
+
+  // Lids of others have their share as if it were not there, and a corner in common makes no difference.
+  const Mesh open = changed(whole, [](auto& rings) { rings.pop_back(); });
+  for (const std::vector<std::uint32_t>& more : {std::vector<std::uint32_t>{}, std::vector<std::uint32_t>{0}}) {
+    const Mesh two = beside_a_plate(beside_a_plate(open, more), more, 7);
+    const RepairedMesh refused = repair_mesh(two, {.close_percent = 10});
+    CHECK(refused.lid_share == Approx(1.0 / 6));
+    CHECK_FALSE(refused.problem.empty());
+    const RepairedMesh closed = repair_mesh(two, {.close_percent = 17});
+    CHECK(equal(closed.set, cube));
+    CHECK(closed.holes == 1);
+  }
+  // Nothing but plates.
+  const Mesh plates = beside_a_plate(beside_a_plate({}, {}), {}, 7);
+  CHECK_FALSE(repair_mesh(plates, {.close_percent = 100, .crossings = Crossings::kUnion}).problem.empty());
+}
+
+TEST_CASE("Flat walls stay where what they enclose together counts", "[repair][lids]") {
+  // Five plates that stick out beyond each other, below a gable roof: a room, without a side in common.
+  const Mesh room = read_off(
+      "OFF\n26 7 0\n-1 -2 -2\n-1 2 -2\n-1 2 2\n-1 -2 2\n1 -2 -2\n1 2 -2\n1 2 2\n1 -2 2\n-2 -1 -2\n-2 -1 2\n2 -1 2\n2 "
+      "-1 -2\n"
+      "-2 1 -2\n-2 1 2\n2 1 2\n2 1 -2\n-2 -2 -1\n2 -2 -1\n2 2 -1\n-2 2 -1\n-2 -2 1/2\n2 -2 1/2\n2 0 1\n-2 0 1\n2 2 "
+      "1/2\n-2 2 1/2\n"
+      "4 3 2 1 0\n4 4 5 6 7\n4 11 10 9 8\n4 12 13 14 15\n4 19 18 17 16\n4 20 21 22 23\n4 23 22 24 25\n",
+      "room.off");
+  const RepairedMesh outside = repair_mesh(room, {.close_percent = 100, .crossings = Crossings::kOutside});
+  INFO(outside.problem);
+  REQUIRE(outside.problem.empty());
+  CHECK(contains(outside.set, {0, 0, 0}));
+  CHECK_FALSE(contains(outside.set, {0, 0, Rational(3, 2)}));
+  // By winding numbers, nothing but the roof with its lid encloses anything.
+  const RepairedMesh wound = repair_mesh(room, {.close_percent = 100, .crossings = Crossings::kUnion});
+  CHECK_FALSE(contains(wound.set, {0, 0, 0}));
+  CHECK(std::any_of(wound.done.begin(), wound.done.end(),
+                    [](const std::string& line) { return line.find("5 flat pieces (5 faces) left out") == 0; }));
+}
+
+TEST_CASE("A side that slits separate from the others is a side still", "[repair][lids]") {
+  // A cube whose upper square lacks the vertices that stand out a little from the upper sides of the others.
+  Mesh box = read_off(
+      "OFF\n12 6 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n0 0 2\n2 0 2\n2 2 2\n0 2 2\n1 0 2\n2 1 2\n1 2 2\n0 1 2\n"
+      "4 3 2 1 0\n5 0 1 5 8 4\n5 1 2 6 9 5\n5 2 3 7 10 6\n5 3 0 4 11 7\n4 4 5 6 7\n",
+      "box.off");
+  box.vertices[8][1] = Rational(-1, 64);
+  box.vertices[9][0] = Rational(129, 64);
+  box.vertices[10][1] = Rational(129, 64);
+  box.vertices[11][0] = Rational(-1, 64);
+  const RepairedMesh closed = repair_mesh(box, {.close_percent = 1, .crossings = Crossings::kUnion});
+  INFO(closed.problem);
+  REQUIRE(closed.problem.empty());
+  CHECK(closed.holes == 4);
+  CHECK(closed.flat_holes == 4);
+  CHECK(volume(closed.set) > 8);
+  CHECK(volume(closed.set) < Rational(81, 10));
+}
+
 TEST_CASE("Import closes holes with the lids that a repair would make, and notes it", "[repair][lids]") {
   const Polyhedron cube = make_box({0, 0, 0}, {2, 2, 2});
   MeshExportOptions polygons;

@@ -414,7 +414,7 @@ class MeetingSearch {
       const VertexId to = other.c.target(h);
       const Spot p{other.points[from.index()], other.filter->point(from)};
       const Spot q{other.points[to.index()], other.filter->point(to)};
-      // Parts that fit each other have most corners in common; those are on the edge's line, but not inside of the edge.
+      // Parts that fit each other have most corners in common: on the line of the edge, but not inside of it.
       if (is_one_of(p.exact, end)) continue;
       const int of_p = turn(from_end, to_end, p, axis, monitor_);
       if (of_p == 0) {

@@ -313,6 +313,12 @@ class MeetingSearch {
   struct Moving {
     bool known = false;
     PointTable table;  // both ends, then points on it; coordinates may have common factors
+    std::optional<std::array<Rational3, 2>> ends;
+
+    const std::array<Rational3, 2>& exact_ends() {
+      if (!ends) ends = {table.rational(PointId{0U}), table.rational(PointId{1U})};
+      return *ends;
+    }
   };
 
   // Appends a vertex of side x where the other side sees it.
@@ -347,8 +353,7 @@ class MeetingSearch {
     }
     if (sign[0] == 0) meet_at(x, ItemRef(edge.from), f, {&at.table, PointId{0U}});
     if (sign[1] == 0) meet_at(x, ItemRef(edge.to), f, {&at.table, PointId{1U}});
-    if (sign[0] == 0 && sign[1] == 0)
-      meet_border(x, edge, {at.table.rational(PointId{0U}), at.table.rational(PointId{1U})}, f);
+    if (sign[0] == 0 && sign[1] == 0) meet_border(x, edge, at.exact_ends(), f);
   }
 
   // Appends the point where the segment between the first two points crosses a plane: with the plane's forms v0 and v1
@@ -386,6 +391,10 @@ class MeetingSearch {
 
   static ItemRef edge_of(const Complex& c, HalfedgeId h) { return ItemRef(std::min(h, c.twin[h])); }
 
+  static bool is_one_of(const Rational3& point, const std::array<Rational3, 2>& ends) {
+    return point == ends[0] || point == ends[1];
+  }
+
   // An edge of side x in the plane of a facet, and the facet's border: crossings, and vertices inside of the edge.
   void meet_border(std::size_t x, const EdgeEnds& edge, const std::array<Rational3, 2>& end, FacetId f) {
     const Side& other = side(1 - x);
@@ -405,13 +414,15 @@ class MeetingSearch {
       const VertexId to = other.c.target(h);
       const Spot p{other.points[from.index()], other.filter->point(from)};
       const Spot q{other.points[to.index()], other.filter->point(to)};
+      // Parts that fit each other have most corners in common: on the line of the edge, but not inside of it.
+      if (is_one_of(p.exact, end)) continue;
       const int of_p = turn(from_end, to_end, p, axis, monitor_);
       if (of_p == 0) {
         const Rational3 to_ends[2] = {minus(end[0], p.exact), minus(end[1], p.exact)};
         if (dot(to_ends[0], to_ends[1]) < 0) contact(x, ItemRef(edge.halfedge), ItemRef(from));
         continue;
       }
-      if (of_p * turn(from_end, to_end, q, axis, monitor_) >= 0) continue;
+      if (is_one_of(q.exact, end) || of_p * turn(from_end, to_end, q, axis, monitor_) >= 0) continue;
       if (turn(p, q, from_end, axis, monitor_) * turn(p, q, to_end, axis, monitor_) < 0)
         contact(x, ItemRef(edge.halfedge), edge_of(other.c, h));
     }

@@ -67,7 +67,7 @@ class RangeEnd(NamedTuple):
 
     #: degrees, or multiples of the slider's direction
     measure: float
-    #: two bounds of the joint's own number, 2^-60 apart; equal if it is rational
+    #: two bounds of the joint's own number, 2^-60 apart or less; equal if it is rational
     bounds: Tuple[Fraction, Fraction]
     #: what touches there
     stops: List["Stop"]
@@ -86,7 +86,7 @@ class Stop(NamedTuple):
 class RangePart(NamedTuple):
     """A maximal interval of values of a joint with one status, or one value."""
 
-    #: 'free', 'touching', 'colliding', or for a Screw or FourBar 'undecided'
+    #: 'free', 'touching', 'colliding', or 'undecided': parts of the range of a FourBar, single values of a Screw
     status: str
     start: RangeEnd
     end: RangeEnd

@@ -226,6 +226,12 @@ def test_time_ends_a_plan(needs):
     assert scene.plan((-5, 0, 0), (15, 0, 0), seconds=1000)
 
 
+def test_unbounded_robots_are_refused(needs):
+    planner = needs("planner")
+    with pytest.raises(nef.InputError, match="the robot is unbounded"):
+        planner.Scene(~nef.box((0, 0, 0), (1, 1, 1)), [nef.box((3, 0, 0), (4, 1, 1))]).plan((-5, 0, 0), (15, 0, 0))
+
+
 def test_certified_paths_are_those_of_the_program(needs, tmp_path):
     planner = needs("planner")
     bar = nef.box((-2, "-1/4", "-1/2"), (2, "1/4", "1/2"))

@@ -283,7 +283,11 @@ TEST_CASE("long work tells how far it is") {
 TEST_CASE("OMPL from the command line: a planner, and a benchmark log") {
   const Folder folder;
   CHECK(planner(folder, scene("s7_one_box") + " --ompl rrtconnect --time 60").code == 0);
-  CHECK(planner(folder, scene("s1_narrower") + " --ompl RRTConnect --time 0.1").code == 4);
+  const Run unsolved = planner(folder, scene("s1_narrower") + " --ompl RRTConnect --time 0.1");
+  CHECK(unsolved.code == 4);
+  CHECK_THAT(unsolved.out, Catch::Contains("this proves nothing"));
+  CHECK_THAT(planner(folder, scene("s1_narrower") + " --ompl RRTConnect --time 0.1 --json").out,
+             Catch::Contains("\"status\": \"undecided\""));
   CHECK(planner(folder, scene("s1_narrower") + " --ompl TightPlanner").code == 1);
   const std::string log = folder.file("bench.log");
   REQUIRE(

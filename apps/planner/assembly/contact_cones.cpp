@@ -293,11 +293,13 @@ std::optional<ContactCones> contact_cones(const Polyhedron& a, const Polyhedron&
   Pyramids of_b(b.complex());
   std::set<Integer3> half_spaces;  // all directions behind these planes are blocked
   for (const auto& [item_a, item_b] : *contacts) {
-    const LocalCone& cone_a = of_a.at(item_a).cone;
     const LocalCone& cone_b = of_b.at(item_b).cone;
     if (cone_b.hollow) {
       for (const Integer3& inward : cone_b.inward) half_spaces.insert(opposite(inward));
-    } else if (cone_a.hollow) {
+      continue;  // without the pyramid of a, which takes as long
+    }
+    const LocalCone& cone_a = of_a.at(item_a).cone;
+    if (cone_a.hollow) {
       half_spaces.insert(cone_a.inward.begin(), cone_a.inward.end());
     } else {
       add_facing(cone_a, cone_b, half_spaces);
@@ -306,9 +308,10 @@ std::optional<ContactCones> contact_cones(const Polyhedron& a, const Polyhedron&
   std::set<OpenCone> cones;
   for (const Integer3& n : half_spaces) cones.insert({n});
   for (const auto& [item_a, item_b] : *contacts) {
-    const LocalCone& cone_a = of_a.at(item_a).cone;
     const LocalCone& cone_b = of_b.at(item_b).cone;
-    if (cone_a.hollow || cone_b.hollow || is_known(cone_a, cone_b, half_spaces)) continue;
+    if (cone_b.hollow) continue;
+    const LocalCone& cone_a = of_a.at(item_a).cone;
+    if (cone_a.hollow || is_known(cone_a, cone_b, half_spaces)) continue;
     add_pairs(cone_a, cone_b, of_a.parts_at(item_a, monitor), of_b.parts_at(item_b, monitor), half_spaces, cones);
   }
   ContactCones result;

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "apps/minkowski/minkowski.h"
+#include "apps/planner/intersection/vectors.h"
 #include "nef/geometry/integer_vector.h"
 #include "nef/geometry/vectors.h"
 #include "nef/sphere_map/sphere_geometry.h"
@@ -17,10 +18,36 @@
 namespace nef::planner {
 namespace {
 
+// Four normals around the origin, which forbid all directions: often those nearest to the directions from the middle of
+// a regular tetrahedron to its corners. Empty if those are not around it.
+std::set<Integer3> four_around(const std::set<Integer3>& normals) {
+  static constexpr std::array<std::array<double, 3>, 4> kCorners{{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}};
+  std::array<const Integer3*, 4> nearest{};
+  std::array<double, 4> best{-2, -2, -2, -2};
+  for (const Integer3& n : normals) {
+    const Vector3d along = Vector3d(n[0].get_d(), n[1].get_d(), n[2].get_d()).normalized();
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double value = along.dot(Vector3d(kCorners[i][0], kCorners[i][1], kCorners[i][2]));
+      if (value <= best[i]) continue;
+      best[i] = value;
+      nearest[i] = &n;
+    }
+  }
+  if (std::find(nearest.begin(), nearest.end(), nullptr) != nearest.end()) return {};  // larger than doubles
+  // The origin is inside of a tetrahedron iff each face has it on the side of the fourth corner.
+  const auto turn = [&](std::size_t i, std::size_t j, std::size_t k) {
+    return sgn(dot(cross(*nearest[i], *nearest[j]), *nearest[k]));
+  };
+  const int side = turn(0, 1, 2);
+  if (side == 0 || turn(0, 1, 3) != -side || turn(0, 2, 3) != side || turn(1, 2, 3) != -side) return {};
+  return {*nearest[0], *nearest[1], *nearest[2], *nearest[3]};
+}
+
 // Normals that span the same cone as all: no more are looked for if the cone is not flat and has few facets.
 std::set<Integer3> spanning(const std::set<Integer3>& normals, const Monitor& monitor) {
   constexpr std::size_t kFew = 4;
   if (normals.size() <= kFew) return normals;
+  if (std::set<Integer3> around = four_around(normals); !around.empty()) return around;
   std::vector<Rational3> points{Rational3{}};
   for (const Integer3& n : normals) points.push_back(to_rational(n));
   const minkowski::ConvexCell hull = minkowski::hull_cell(points, monitor);
@@ -64,6 +91,26 @@ std::set<Integer3> spanning(const std::set<Integer3>& normals, const Monitor& mo
   return result;
 }
 
+// What of the cube from -1 to 1 is on the side n * x <= 0: the hull of its corners there and of the points where its
+// edges cross the plane.
+Polyhedron half_cube(const Integer3& n, const Monitor& monitor) {
+  std::vector<Rational3> points;
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    Rational3 x;
+    for (unsigned k = 0; k < 3; ++k) x[k] = (corner >> k & 1U) != 0 ? 1 : -1;
+    const Rational height = dot(to_rational(n), x);
+    if (height <= 0) points.push_back(x);
+    for (unsigned k = 0; k < 3; ++k) {
+      // From the corner that is lower along the axis, once.
+      if ((corner >> k & 1U) != 0 || sgn(height) * sgn(Rational(height + 2 * n[k])) >= 0) continue;
+      Rational3 crossing = x;
+      crossing[k] -= height / n[k];
+      points.push_back(crossing);
+    }
+  }
+  return convex_hull(points, monitor);
+}
+
 // The directions in which the stops begin to be in the way of a part.
 std::vector<FreeDirections::Stop> stops_of(Blocking& blocking, std::size_t part, const Monitor& monitor) {
   std::vector<FreeDirections::Stop> stops;
@@ -93,11 +140,7 @@ FreeDirections free_directions(Blocking& blocking, std::size_t part, const Monit
   std::vector<Polyhedron> allowed{cube};
   for (const FreeDirections::Stop& stop : result.stops) {
     std::vector<Polyhedron> sides;
-    for (const Integer3& n : stop.directions) {
-      sides.push_back(
-          intersect(cube, make_halfspace(Rational(-n[0]), Rational(-n[1]), Rational(-n[2]), Rational(0), true, monitor),
-                    monitor));
-    }
+    for (const Integer3& n : stop.directions) sides.push_back(half_cube(opposite(n), monitor));
     allowed.push_back(unite_all(sides, monitor));
   }
   result.everything = result.stops.empty();

@@ -74,6 +74,7 @@ std::vector<std::size_t> obstacles_near(const Scene& scene, std::size_t index) {
 
 Polyhedron free_positions(const Scene& scene, const Monitor& monitor) {
   require_no_rotation(scene);
+  require_bounded_robot(scene);
   const minkowski::PartOfSum whole(monitor);  // tells of nothing but the sum
   const minkowski::MinkowskiOptions options{.monitor = whole.monitor()};
   const Monitor quiet = monitor.quiet();

@@ -110,8 +110,8 @@ bool some_is_inside(std::size_t vertices, std::size_t faces, const Side& side, c
 class EventFinder {
  public:
   EventFinder(const ContactPiece& moving, const ContactPiece& fixed, const EventCell& cell,
-              std::vector<ContactEvent>& events)
-      : a_(moving), b_(fixed), exact_(cell), cell_(cell.rounded), events_(events) {
+              std::vector<ContactEvent>* events, std::vector<ScrewContact>* products)
+      : a_(moving), b_(fixed), exact_(cell), cell_(cell.rounded), events_(events), products_(products) {
     reach_ = reach_of(a_, b_, cell_);
     error_ = product_error(reach_);
   }
@@ -131,6 +131,7 @@ class EventFinder {
   // Takes the roots of the polynomial with these exact control values, value(matrix, position).
   template <typename Value>
   void take_roots(const Value& value, const ContactItems& items) {
+    if (products_ != nullptr) return take_product(value, items);
     std::array<Rational, 3> c;
     if (exact_.turning) {
       std::array<Rational, 3> b;
@@ -141,7 +142,19 @@ class EventFinder {
       c = {begin, value(exact_.turns[0], exact_.positions[1]) - begin, 0};
     }
     for (const QuadraticRoot& root : roots_in_unit_interval(c))
-      events_.push_back({moved(root, exact_.from, exact_.width), items});
+      events_->push_back({moved(root, exact_.from, exact_.width), items});
+  }
+
+  template <typename Value>
+  void take_product(const Value& value, const ContactItems& items) {
+    ScrewContact found;
+    found.items = items;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Rational still = value(exact_.turns[i], exact_.positions[0]);
+      found.product.still[i] = exact_.weights[i] * still;
+      found.product.along[i] = exact_.weights[i] * (value(exact_.turns[i], exact_.positions[1]) - still);
+    }
+    if (!found.product.vanishes()) products_->push_back(std::move(found));
   }
 
   // Is a point of a piece surely behind a plane all the time? value(matrix, position, point); the points that are most
@@ -239,7 +252,8 @@ class EventFinder {
   const MotionCell& cell_;
   double reach_ = 0;
   double error_ = 0;
-  std::vector<ContactEvent>& events_;
+  std::vector<ContactEvent>* events_;
+  std::vector<ScrewContact>* products_;  // of a screw
 };
 
 Surd dot_of(const Surd3& a, const Surd3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
@@ -282,7 +296,7 @@ ContactPiece::ContactPiece(const RigidBody::Piece& its_piece) : piece(&its_piece
 EventCell::EventCell(const Joint& joint, const Rational& begin, const Rational& end)
     : from(begin),
       width(end - begin),
-      turning(joint.kind() == Joint::Kind::kHinge),
+      turning(joint.kind() != Joint::Kind::kSlider),
       rounded(joint.sweep(begin, end, 0).all) {
   const std::array<Quaternion, 2> ends = joint.arc(begin, end);
   const auto set = [&](std::size_t i, const Quaternion& p, const Quaternion& q) {
@@ -293,16 +307,65 @@ EventCell::EventCell(const Joint& joint, const Rational& begin, const Rational& 
   set(1, ends[0], ends[1]);
   set(2, ends[1], ends[1]);
   if (!turning) positions = {joint.pose(begin).position, joint.pose(end).position};
+  if (joint.kind() == Joint::Kind::kScrew) positions[1] = joint.direction();
 }
 
 void append_events(const ContactPiece& moving, const ContactPiece& fixed, const EventCell& cell,
                    std::vector<ContactEvent>& events) {
-  EventFinder(moving, fixed, cell, events).run();
+  EventFinder(moving, fixed, cell, &events, nullptr).run();
+}
+
+void append_products(const ContactPiece& moving, const ContactPiece& fixed, const EventCell& cell,
+                     std::vector<ScrewContact>& products) {
+  EventFinder(moving, fixed, cell, nullptr, &products).run();
 }
 
 std::size_t event_cost(const ContactPiece& moving, const ContactPiece& fixed) {
   return moving.vertices().size() * fixed.faces.size() + moving.faces.size() * fixed.vertices().size() +
          moving.edges.size() * fixed.edges.size();
+}
+
+// In doubles, by the first image of the moving piece. With R for the reach, points are off by less than e =
+// product_error (as wide as the cell is, too), normals by 2^-50; differences are at most 2 R, so the side of a corner
+// is off by less than 8 e R, and the products of edges, of four factors that are off by less than 2 e of 2 R each, by
+// less than 128 e R^3.
+bool may_touch(const ContactPiece& moving, const ContactPiece& fixed, const MotionCell& cell,
+               const ContactItems& items) {
+  const double reach = reach_of(moving, fixed, cell);
+  const double error = product_error(reach);
+  const auto image = [&](std::uint32_t v) -> Vector3d {
+    return cell.turns[0] * moving.piece->points[v] + cell.positions[0];
+  };
+  const auto beside = [&](const Vector3d& point, const std::vector<Vector3d>& corners, const Vector3d& normal) {
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      const Vector3d side = corners[(i + 1) % corners.size()] - corners[i];
+      if (normal.cross(side).dot(point - corners[i]) < -8 * error * reach) return true;
+    }
+    return false;
+  };
+  std::vector<Vector3d> corners;
+  switch (items.kind) {
+    case ContactItems::Kind::kVertexFace:
+      for (const std::uint32_t corner : fixed.faces[items.fixed].ring) corners.push_back(fixed.piece->points[corner]);
+      return !beside(image(items.moving), corners, fixed.piece->normals[items.fixed]);
+    case ContactItems::Kind::kFaceVertex:
+      for (const std::uint32_t corner : moving.faces[items.moving].ring) corners.push_back(image(corner));
+      return !beside(fixed.piece->points[items.fixed], corners, cell.turns[0] * moving.piece->normals[items.moving]);
+    default:
+      break;
+  }
+  const ContactPiece::Edge& edge = moving.edges[items.moving];
+  const ContactPiece::Edge& other = fixed.edges[items.fixed];
+  const Vector3d e = image(edge.to) - image(edge.from);
+  const Vector3d g = fixed.piece->points[other.to] - fixed.piece->points[other.from];
+  const Vector3d n = e.cross(g);
+  const Vector3d between = fixed.piece->points[other.from] - image(edge.from);
+  const double slack = 128 * error * reach * reach * reach;
+  const auto inside = [&](const Vector3d& along) {
+    const double at = between.cross(along).dot(n);
+    return at >= -slack && at <= n.squaredNorm() + slack;
+  };
+  return inside(g) && inside(e);
 }
 
 PlacedPiece::PlacedPiece(const ContactPiece& moving, const Joint& joint, const QuadraticRoot& value)

@@ -6,13 +6,14 @@
 // long as such a plane does, a product of its normal with a difference of vertices is positive; when none does any
 // more, one of these products is 0. Each product is linear in the entries of the rotation, or in the stroke: a
 // quadratic polynomial of a hinge's value, a linear one of a slider's. Their roots are all values at which anything can
-// change.
+// change. Of a screw they are transcendental (screw_contact.h).
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
 #include "apps/planner/mechanism/joint.h"
+#include "apps/planner/mechanism/screw_contact.h"
 #include "apps/planner/rigid/rigid_body.h"
 
 namespace nef::planner {
@@ -48,8 +49,14 @@ struct ContactEvent {
   ContactItems items;
 };
 
+/// A contact product of two items that may be 0 in a part of a screw's motion.
+struct ScrewContact {
+  ScrewProduct product;
+  ContactItems items;
+};
+
 /// The values in [from, to], which must be within one quarter, as events in them are found: made once for all pairs of
-/// pieces. For joints whose poses are algebraic.
+/// pieces. For all joints but four-bar linkages.
 struct EventCell {
   EventCell(const Joint& joint, const Rational& from, const Rational& to);
   Rational from;
@@ -57,8 +64,8 @@ struct EventCell {
   bool turning = false;
   std::array<Matrix3, 3> turns;  ///< control values of the rotation, with their weights
   std::array<Rational, 3> weights;
-  std::array<Rational3, 2> positions;
-  MotionCell rounded;  ///< the same in doubles
+  std::array<Rational3, 2> positions;  ///< of a screw: the origin, and the way of a quarter
+  MotionCell rounded;                  ///< the same in doubles
 };
 
 /// Appends all events in a cell at which the two may begin or cease to touch or to overlap. Doubles with proven bounds
@@ -66,8 +73,17 @@ struct EventCell {
 void append_events(const ContactPiece& moving, const ContactPiece& fixed, const EventCell& cell,
                    std::vector<ContactEvent>& events);
 
+/// The same for a screw: appends the products that tell it, without those that are 0 all the time.
+void append_products(const ContactPiece& moving, const ContactPiece& fixed, const EventCell& cell,
+                     std::vector<ScrewContact>& products);
+
 /// About how many products there are.
 std::size_t event_cost(const ContactPiece& moving, const ContactPiece& fixed);
+
+/// False only if two items surely have no point in common in a cell that is about as narrow as doubles can tell, and in
+/// which they come into one plane. O(corners).
+bool may_touch(const ContactPiece& moving, const ContactPiece& fixed, const MotionCell& cell,
+               const ContactItems& items);
 
 /// The moving piece at a value, exactly.
 class PlacedPiece {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Within a quarter, the quaternion of a turn is linear in it (turning/turn.h), so a hinge's cell is an arc with the
-// value as its parameter. A screw's cell is a part of a motion over a whole quarter whose position goes evenly with the
-// angle (MotionTiming::kSlerp), which is the screw's own motion. A four-bar linkage's is the pose in the middle and a
-// ball.
+// value as its parameter. A screw's cell is the same arc with a segment that encloses its positions. A four-bar
+// linkage's is the pose in the middle and a ball.
 #include "apps/planner/mechanism/joint.h"
 
 #include <cmath>
 
+#include "apps/planner/mechanism/screw_contact.h"
 #include "nef/base/error.h"
 #include "nef/geometry/vectors.h"
 #include "nef/number/floor.h"
@@ -15,19 +15,7 @@
 namespace nef::planner {
 namespace {
 
-RigidMotion quarter_of(const TurningAxis& axis, const Rational3& way, const Integer& quarter) {
-  const Rational k(quarter);
-  const auto at = [&](const Rational& turn) {
-    return RigidPose{{turn * way[0], turn * way[1], turn * way[2]}, axis.quaternion(turn)};
-  };
-  return {at(k), at(k + 1), MotionTiming::kSlerp};
-}
-
-double degrees_of(const Quaternion& q) {
-  const double w = nearest_double(q[0]);
-  const double s = std::sqrt(nearest_double(q[1] * q[1] + q[2] * q[2] + q[3] * q[3]));
-  return std::atan2(s, w) * 360 / M_PI;
-}
+Rational3 times(const Rational3& v, const Rational& x) { return {v[0] * x, v[1] * x, v[2] * x}; }
 
 // `away`: how far the point about which the link turns is from the origin.
 Joint::Sweep sweep_of(const FourBar::Place& place, double away, double reach) {
@@ -108,31 +96,11 @@ void Joint::require_range(const Rational& low, const Rational& high) const {
 }
 
 Rational Joint::value_of(const Rational& measure) const {
-  switch (kind_) {
-    case Kind::kHinge:
-    case Kind::kFourBar:
-      return axis_.turn_of_degrees(measure);
-    case Kind::kSlider:
-      return measure;
-    default:
-      break;
-  }
-  // On the arc between quaternions of one length, 90 degrees apart in rotation: s = sin a / (sin a + sin (45 - a)),
-  // a being half the angle.
-  const Integer quarter = floor_of(measure / 90);
-  const Rational rest = measure - 90 * quarter;
-  if (rest == 0) return quarter;
-  const double half = nearest_double(rest) * M_PI / 360;
-  const double s = std::sin(half) / (std::sin(half) + std::sin(M_PI / 4 - half));
-  return quarter + exact_rational(s);
+  return kind_ == Kind::kSlider ? measure : axis_.turn_of_degrees(measure);
 }
 
 double Joint::measure_of(const Rational& value) const {
-  if (kind_ == Kind::kHinge || kind_ == Kind::kFourBar) return axis_.degrees_of(value);
-  if (kind_ == Kind::kSlider) return nearest_double(value);
-  const Integer quarter = floor_of(value);
-  const RigidMotion motion = quarter_of(axis_, direction_, 0);
-  return 90 * quarter.get_d() + degrees_of(motion.quaternion(value - quarter));
+  return kind_ == Kind::kSlider ? nearest_double(value) : axis_.degrees_of(value);
 }
 
 std::vector<Rational> Joint::breaks(const Rational& low, const Rational& high) const {
@@ -143,9 +111,15 @@ std::vector<Rational> Joint::breaks(const Rational& low, const Rational& high) c
 }
 
 RigidPose Joint::pose(const Rational& value) const {
-  NEF_ASSERT(is_algebraic());
-  if (kind_ == Kind::kHinge) return {{0, 0, 0}, axis_.quaternion(value)};
-  return {{value * direction_[0], value * direction_[1], value * direction_[2]}, {1, 0, 0, 0}};
+  NEF_ASSERT(has_products());
+  switch (kind_) {
+    case Kind::kHinge:
+      return {{0, 0, 0}, axis_.quaternion(value)};
+    case Kind::kScrew:
+      return {times(direction_, quarters(value, kShareBits)[0]), axis_.quaternion(value)};
+    default:
+      return {times(direction_, value), {1, 0, 0, 0}};
+  }
 }
 
 std::array<Quaternion, 2> Joint::arc(const Rational& from, const Rational& to) const {
@@ -163,7 +137,7 @@ std::array<Quaternion, 2> Joint::arc(const Rational& from, const Rational& to) c
 }
 
 std::array<Surd3, 4> Joint::pose(const QuadraticRoot& value) const {
-  NEF_ASSERT(is_algebraic());
+  NEF_ASSERT(has_products());
   std::array<Surd3, 4> result;
   const Surd at = Surd::of(value);
   if (kind_ == Kind::kSlider) {
@@ -188,6 +162,14 @@ std::array<Surd3, 4> Joint::pose(const QuadraticRoot& value) const {
     result[i][j] = two * (q[i + 1] * q[j + 1] - q[0] * q[k + 1]) / length;
     result[i][k] = two * (q[i + 1] * q[k + 1] + q[0] * q[j + 1]) / length;
   }
+  if (kind_ != Kind::kScrew) return result;
+  for (const ExactTurn& exact : exact_turns(quarter)) {
+    if (compare(exact.turn, value) != 0) continue;
+    for (std::size_t i = 0; i < 3; ++i) result[3][i] = Surd(Rational(exact.quarters * direction_[i]));
+    return result;
+  }
+  NEF_ASSERT(false);
+  return result;
   return result;
 }
 
@@ -202,21 +184,23 @@ Joint::Sweep Joint::sweep(const Rational& from, const Rational& to, double reach
     sweep.all.wide = true;
     return sweep;
   }
-  if (kind_ != Kind::kScrew) {
-    const RigidMotion motion(pose(from), pose(to));
-    const MotionCells cells(motion);
-    sweep.all = cells.part(0, 1);
-    sweep.middle = cells.pose(0.5);
-    return sweep;
+  RigidPose begin = pose(from);
+  RigidPose end = pose(to);
+  if (kind_ == Kind::kScrew) {
+    // Positions that enclose those of pose() too, which may be lower by 2^-100.
+    constexpr unsigned kBits = kShareBits - 10;
+    Rational margin(1);
+    mpq_div_2exp(margin.get_mpq_t(), margin.get_mpq_t(), kBits);
+    begin.position = times(direction_, quarters(from, kBits)[0] - margin);
+    end.position = times(direction_, quarters(to, kBits)[1] + margin);
+    const RigidPose middle = pose((from + to) / 2);
+    sweep.middle = MotionCells(RigidMotion(middle, middle)).pose(0);
+    sweep.middle_error = 0x1p-90 * to_vector(direction_).lpNorm<1>();
   }
-  const Integer quarter = floor_of(from);
-  const RigidMotion motion = quarter_of(axis_, direction_, quarter);
+  const RigidMotion motion(begin, end);
   const MotionCells cells(motion);
-  const double a = nearest_double(from - quarter);
-  const double b = nearest_double(to - quarter);
-  sweep.all = cells.part(a, b);
-  sweep.middle = cells.pose((a + b) / 2);
-  sweep.middle_error = cells.position_error();
+  sweep.all = cells.part(0, 1);
+  if (kind_ != Kind::kScrew) sweep.middle = cells.pose(0.5);
   return sweep;
 }
 

@@ -23,7 +23,7 @@ namespace nef::planner {
 ///
 /// - a hinge turns it about a line; the value is a Turn, a rational half-tangent within its quarter
 /// - a slider moves it along a direction; the value is the multiple of that direction
-/// - a screw does both; the value is in quarters, and within a quarter the parameter of the arc of quaternions
+/// - a screw does both, the way going evenly with the angle; the value is a Turn
 /// - a four-bar linkage moves its coupler or its rocker; the value is the Turn of its crank
 class Joint {
  public:
@@ -39,8 +39,8 @@ class Joint {
                         const std::array<Rational3, 2>& pins, FourBar::Link link);
 
   [[nodiscard]] Kind kind() const { return kind_; }
-  /// Whether poses are algebraic: contact is found as the roots of polynomials then, and by bisection else.
-  [[nodiscard]] bool is_algebraic() const { return kind_ == Kind::kHinge || kind_ == Kind::kSlider; }
+  /// Whether contact is found as the zeros of contact products (contact_events.h), and not by bisection.
+  [[nodiscard]] bool has_products() const { return kind_ != Kind::kFourBar; }
   /// Throws InputError if the bars of a four-bar linkage do not meet at all values of a range, or come so near to a
   /// line that this is not known.
   void require_range(const Rational& low, const Rational& high) const;
@@ -49,6 +49,9 @@ class Joint {
   [[nodiscard]] const Rational3& point() const { return point_; }
   /// The direction of the axis. Of a four-bar linkage: nothing moves along it.
   [[nodiscard]] const Rational3& axis() const { return axis_.direction(); }
+
+  /// Of a slider; of a screw the way of a quarter.
+  [[nodiscard]] const Rational3& direction() const { return direction_; }
 
   /// The value for degrees, or for a multiple of the direction: exact for sliders and whole quarters, else within
   /// 1e-12.
@@ -59,12 +62,14 @@ class Joint {
   /// Values at which cells must begin: whole quarters. Nothing for a slider.
   [[nodiscard]] std::vector<Rational> breaks(const Rational& low, const Rational& high) const;
 
-  /// The pose at a value. If poses are algebraic.
+  /// The pose at a value, if there are products; the position of a screw is within 2^-100 of its way of a
+  /// quarter, and exact at whole quarters.
   [[nodiscard]] RigidPose pose(const Rational& value) const;
   /// The quaternions of two values within one quarter so that those of values in between are linear in the value: of a
   /// four-bar linkage those of the crank.
   [[nodiscard]] std::array<Quaternion, 2> arc(const Rational& from, const Rational& to) const;
-  /// The rotation matrix and the position at a value, in its field. If poses are algebraic.
+  /// The rotation matrix and the position at a value, in its field, if there are products. The value of a screw must
+  /// be one of exact_turns() (screw_contact.h).
   [[nodiscard]] std::array<Surd3, 4> pose(const QuadraticRoot& value) const;
 
   /// A point, in the coordinates of poses, about which the part turns while that point moves: of a four-bar linkage the
@@ -80,15 +85,18 @@ class Joint {
   /// `reach`: no point of the moving part is farther from turning_point(). (Only cells of a four-bar linkage depend on
   /// it.)
   [[nodiscard]] Sweep sweep(const Rational& from, const Rational& to, double reach) const;
-  /// The same for a cell around a value that is about as narrow as doubles can tell. If poses are algebraic.
+  /// The same for a cell around a value that is about as narrow as doubles can tell, if there are products.
   [[nodiscard]] Sweep sweep(const QuadraticRoot& value) const;
 
  private:
+  // Positions of a screw that are not exact.
+  static constexpr unsigned kShareBits = 100;
+
   explicit Joint(Kind kind, const Rational3& direction) : kind_(kind), axis_(direction), direction_(direction) {}
 
   Kind kind_;
   TurningAxis axis_;
-  Rational3 direction_;  // of a slider; of a screw the way of a quarter
+  Rational3 direction_;
   Rational3 point_;
   std::optional<FourBar> bars_;  // seen from the point
 };

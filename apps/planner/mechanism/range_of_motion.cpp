@@ -2,7 +2,8 @@
 //
 // Status at a rational value is that of two MotionChecker, one that allows contact and one that does not. At an event
 // it follows from the values on both sides: colliding is open, touching or colliding is closed. Where both sides
-// collide, or both are free, the pieces that have an event there are compared in its own field.
+// collide, or both are free, the pieces that have an event there are compared in its own field. An event of a screw has
+// no such field, but is an interval: what its pieces do in all of it is known in doubles, or is not.
 #include "apps/planner/mechanism/range_of_motion.h"
 
 #include <algorithm>
@@ -30,13 +31,15 @@ using Pair = std::array<std::uint32_t, 2>;  // pieces: of the moving part, and o
 constexpr unsigned kFirstCells = 16;
 // Cells are halved so many times at most before their events are found,
 constexpr unsigned kDepth = 7;
-// or those of joints that are not algebraic before they are undecided.
+// or those of joints without contact products before they are undecided.
 constexpr unsigned kLastDepth = 26;
 // A cell with so few products is not halved.
 constexpr std::size_t kFewProducts = 3000;
-// So many cells of a joint that is not algebraic are made of one of the first cells: what keeps contact all the time
+// So many cells of a joint without contact products are made of one of the first cells: what keeps contact all the time
 // would be halved to the last depth everywhere.
 constexpr std::size_t kMostCells = 8000;
+// Values of a screw between two events are known with so many bits.
+constexpr unsigned kSampleBits = 100;
 
 struct Shifted {
   Polyhedron moving;
@@ -153,15 +156,15 @@ class RangeSearch {
     if (all_collide(sweep, may_overlap ? others : pairs)) {
       return add_all(may_overlap ? RangeStatus::kColliding : RangeStatus::kTouching, from, to);
     }
-    const bool algebraic = m_.joint.is_algebraic();
+    const bool has_products = m_.joint.has_products();
     std::size_t cost = 0;
     for (const Pair& pair : pairs) cost += event_cost(moving_pieces_[pair[0]], fixed_pieces_[pair[1]]);
-    if (depth < (algebraic ? kDepth : kLastDepth) && (algebraic ? cost > kFewProducts : cells_left_ > 0)) {
+    if (depth < (has_products ? kDepth : kLastDepth) && (has_products ? cost > kFewProducts : cells_left_ > 0)) {
       const Rational middle = (from + to) / 2;
       examine(from, middle, &pairs, depth + 1);
       examine(middle, to, &pairs, depth + 1);
-    } else if (!algebraic) {
-      add(RangeStatus::kUndecided, from, to, {});
+    } else if (!has_products) {
+      add_interval(RangeStatus::kUndecided, {from, std::nullopt, {}}, {to, std::nullopt, {}});
     } else {
       find_events(from, to, pairs);
     }
@@ -219,6 +222,13 @@ class RangeSearch {
   struct Event {
     QuadraticRoot value;
     std::vector<std::pair<Pair, ContactItems>> items;
+    std::optional<std::array<Rational, 2>> between;  // of a screw, if the value is not known exactly
+    bool single = true;                              // exactly one value, whatever it is
+
+    [[nodiscard]] std::array<Rational, 2> bounds(unsigned bits) const {
+      return between ? *between : enclosure(value, bits);
+    }
+    [[nodiscard]] RangeEnd end(std::vector<ContactPair> stops = {}) const { return {value, between, std::move(stops)}; }
   };
 
   // The value in doubles. A nearest double is off by 2^-53 of it, a root by as much again.
@@ -253,7 +263,7 @@ class RangeSearch {
     std::vector<Event> events;
     for (Found& event : found) {
       if (events.empty() || compare(events.back().value, event.value) != 0) {
-        events.push_back({std::move(event.value), {}});
+        events.push_back({std::move(event.value), {}, std::nullopt, true});
       }
       events.back().items.emplace_back(event.pair, event.items);
     }
@@ -261,32 +271,130 @@ class RangeSearch {
     return events;
   }
 
+  // The same for a screw. Products that are multiples of each other have the same zeros; zeros of others that are not
+  // known to be apart are one event, which may be several values.
+  std::vector<Event> screw_events_in(const Rational& from, const Rational& to, const std::vector<Pair>& pairs) {
+    struct Group {
+      ScrewProduct product;
+      std::vector<std::pair<Pair, ContactItems>> items;
+    };
+    const EventCell cell(m_.joint, from, to);
+    std::map<std::array<Rational, 6>, Group> groups;
+    for (const Pair& pair : pairs) {
+      std::vector<ScrewContact> of_pair;
+      append_products(moving_pieces_[pair[0]], fixed_pieces_[pair[1]], cell, of_pair);
+      for (ScrewContact& contact : of_pair) {
+        Group& group = groups[contact.product.normalized()];
+        group.product = std::move(contact.product);
+        group.items.emplace_back(pair, contact.items);
+      }
+    }
+    products_.clear();
+    struct Found {
+      Event event;
+      std::optional<QuadraticRoot> algebraic;
+      std::size_t product = 0;
+    };
+    std::vector<Found> found;
+    for (auto& [key, group] : groups) {
+      monitor_.check_interruption();
+      for (const ScrewRoot& root : roots_of(group.product, {from, to})) {
+        Event event{root.exact ? *root.exact : QuadraticRoot(root.low), group.items, std::nullopt, root.single};
+        if (!root.exact) event.between = {root.low, root.high};
+        found.push_back({std::move(event), root.algebraic, products_.size()});
+      }
+      products_.push_back(std::move(group.product));
+    }
+    constexpr unsigned kBits = 80;
+    std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
+      return a.event.bounds(kBits)[0] < b.event.bounds(kBits)[0];
+    });
+    const auto is_same = [&](const Found& a, const Found& b) {
+      if (!a.event.between || !b.event.between) {
+        return !a.event.between && !b.event.between && compare(a.event.value, b.event.value) == 0;
+      }
+      if (a.algebraic || b.algebraic) return a.algebraic && b.algebraic && compare(*a.algebraic, *b.algebraic) == 0;
+      return a.product != b.product && have_equal_quotients(products_[a.product], products_[b.product]);
+    };
+    std::vector<Event> events;
+    std::vector<const Found*> of_last;  // zeros of the last event
+    for (const Found& next : found) {
+      if (events.empty() || events.back().bounds(kBits)[1] < next.event.bounds(kBits)[0]) {
+        events.push_back(next.event);
+        of_last = {&next};
+        continue;
+      }
+      Event& last = events.back();
+      last.items.insert(last.items.end(), next.event.items.begin(), next.event.items.end());
+      const bool twice = std::any_of(of_last.begin(), of_last.end(), [&](const Found* other) {
+        return other->product == next.product && !is_same(*other, next);
+      });
+      const bool same = last.single && next.event.single && !twice && is_same(*of_last.front(), next);
+      of_last.push_back(&next);
+      if (same && !last.between) continue;
+      const std::array<Rational, 2> before = last.bounds(kBits);
+      const std::array<Rational, 2> now = next.event.bounds(kBits);
+      if (same) {
+        last.between = {std::max(before[0], now[0]), std::min(before[1], now[1])};
+      } else {
+        last.between = {std::min(before[0], now[0]), std::max(before[1], now[1])};
+        last.single = false;
+      }
+      last.value = (*last.between)[0];
+    }
+    for (Event& event : events)
+      std::sort(event.items.begin(), event.items.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    result_.events += events.size();
+    return events;
+  }
+
   void find_events(const Rational& from, const Rational& to, const std::vector<Pair>& pairs) {
-    std::vector<Event> events = events_in(from, to, pairs);
+    const bool screws = m_.joint.kind() == Joint::Kind::kScrew;
+    std::vector<Event> events = screws ? screw_events_in(from, to, pairs) : events_in(from, to, pairs);
     // The cell's ends are events, too.
-    if (events.empty() || compare(events.front().value, from) != 0) events.insert(events.begin(), Event{from, {}});
-    if (compare(events.back().value, to) != 0) events.push_back({to, {}});
+    if (events.empty() || compare(events.front().value, from) != 0) events.insert(events.begin(), end_of_cell(from));
+    if (events.back().bounds(kSampleBits)[1] != to) events.push_back(end_of_cell(to));
     std::vector<Rational> samples;
     std::vector<RangeStatus> between;
     for (std::size_t i = 0; i + 1 < events.size(); ++i) {
-      samples.push_back(value_between(events[i].value, events[i + 1].value));
-      between.push_back(status_at(samples.back()));
+      samples.push_back(value_between(events[i], events[i + 1]));
+      between.push_back(is_typical({from, to}, samples.back()) ? status_at(samples.back()) : RangeStatus::kUndecided);
     }
     for (std::size_t i = 0; i < events.size(); ++i) {
-      const QuadraticRoot& value = events[i].value;
       const RangeStatus before = i == 0 ? between.front() : between[i - 1];
       const RangeStatus after = i + 1 == events.size() ? between.back() : between[i];
       const RangeStatus at = status_of(events[i], before, after, {pairs, samples[i == 0 ? 0 : i - 1]});
       const bool changes = at != before || at != after;
-      add(at, value, value, changes ? stops_at(events[i]) : std::vector<ContactPair>{});
-      if (i + 1 < events.size()) add(between[i], value, events[i + 1].value, {});
+      std::vector<ContactPair> stops = changes ? stops_at(events[i]) : std::vector<ContactPair>{};
+      if (events[i].single) {
+        add_value(at, events[i].end(std::move(stops)));
+      } else {
+        add_interval(at, {(*events[i].between)[0], std::nullopt, stops},
+                     {(*events[i].between)[1], std::nullopt, stops});
+      }
+      if (i + 1 < events.size()) add_interval(between[i], upper_end(events[i]), events[i + 1].end());
     }
   }
 
-  static Rational value_between(const QuadraticRoot& a, const QuadraticRoot& b) {
+  // Where what follows begins.
+  static RangeEnd upper_end(const Event& event) {
+    return event.single ? event.end() : RangeEnd{(*event.between)[1], std::nullopt, {}};
+  }
+
+  static Event end_of_cell(const Rational& value) { return {value, {}, std::nullopt, true}; }
+
+  // Is the status of a value what pose() tells, whose position may be a little off? No product changes its sign there.
+  [[nodiscard]] bool is_typical(const ScrewPart& part, const Rational& value) const {
+    if (m_.joint.kind() != Joint::Kind::kScrew) return true;
+    return std::all_of(products_.begin(), products_.end(), [&](const ScrewProduct& product) {
+      return sign_over(product, part, value, quarters(value, kSampleBits)).has_value();
+    });
+  }
+
+  static Rational value_between(const Event& a, const Event& b) {
     for (unsigned bits = 20;; bits *= 2) {
-      const Rational low = enclosure(a, bits)[1];
-      const Rational high = enclosure(b, bits)[0];
+      const Rational low = a.bounds(bits)[1];
+      const Rational high = b.bounds(bits)[0];
       if (low >= high) continue;
       const Rational room = (high - low) / 4;
       return simplest_between(low + room, high - room);
@@ -303,13 +411,24 @@ class RangeSearch {
   // being equal is right then, too, since it is found by looking at the value itself.
   RangeStatus status_of(const Event& event, RangeStatus before, RangeStatus after, const Beside& beside) {
     if (event.items.empty()) return after;  // nothing changes
+    if (before == RangeStatus::kUndecided || after == RangeStatus::kUndecided) return RangeStatus::kUndecided;
     const bool collides_before = before == RangeStatus::kColliding;
     const bool collides_after = after == RangeStatus::kColliding;
+    if (event.between && before == after && before != RangeStatus::kTouching) {
+      return stays(event, before, beside.pairs) ? before : RangeStatus::kUndecided;
+    }
+    if (!event.single) return RangeStatus::kUndecided;
     if (collides_before && collides_after) {
       return overlap_at(event, beside) ? RangeStatus::kColliding : RangeStatus::kTouching;
     }
     if (before != RangeStatus::kFree || after != RangeStatus::kFree) return RangeStatus::kTouching;
     return touch_at(event) ? RangeStatus::kTouching : RangeStatus::kFree;
+  }
+
+  // Are the pieces apart, or does a pair collide, as far as doubles can tell, in all of an event of a screw?
+  bool stays(const Event& event, RangeStatus status, const std::vector<Pair>& pairs) {
+    const Joint::Sweep sweep = m_.joint.sweep((*event.between)[0], (*event.between)[1], 0);
+    return status == RangeStatus::kFree ? not_apart(sweep.all, &pairs).empty() : all_collide(sweep, pairs);
   }
 
   // Does a pair that has an event touch there? None overlaps next to it.
@@ -353,11 +472,16 @@ class RangeSearch {
     std::vector<ContactPair> result;
     std::optional<std::pair<std::uint32_t, PlacedPiece>> placed;
     for (const auto& [pair, items] : event.items) {
-      if (!placed || placed->first != pair[0]) {
-        placed.emplace(pair[0], PlacedPiece(moving_pieces_[pair[0]], m_.joint, event.value));
-      }
       const ContactPiece& fixed = fixed_pieces_[pair[1]];
-      if (!placed->second.touch(fixed, items)) continue;
+      if (event.between) {
+        const Joint::Sweep sweep = m_.joint.sweep((*event.between)[0], (*event.between)[1], 0);
+        if (!may_touch(moving_pieces_[pair[0]], fixed, sweep.all, items)) continue;
+      } else {
+        if (!placed || placed->first != pair[0]) {
+          placed.emplace(pair[0], PlacedPiece(moving_pieces_[pair[0]], m_.joint, event.value));
+        }
+        if (!placed->second.touch(fixed, items)) continue;
+      }
       using Kind = ContactItems::Kind;
       const std::size_t owner = owners_[pair[1]];
       ContactPair stop{
@@ -397,25 +521,23 @@ class RangeSearch {
   }
 
   void add_all(RangeStatus status, const Rational& from, const Rational& to) {
-    add(status, from, from, {});
-    add(status, from, to, {});
-    add(status, to, to, {});
+    const auto end = [](const Rational& value) { return RangeEnd{value, std::nullopt, {}}; };
+    add_value(status, end(from));
+    add_interval(status, end(from), end(to));
+    add_value(status, end(to));
   }
 
-  // Appends an open interval, or a value, to what is known.
-  void add(RangeStatus status, const QuadraticRoot& from, const QuadraticRoot& to, std::vector<ContactPair> stops) {
-    std::vector<RangePart>& parts = result_.parts;
-    const bool is_value = compare(from, to) == 0;
-    if (!parts.empty() && parts.back().status == status) {
-      parts.back().to = {to, std::move(stops)};
-      return;
-    }
-    RangePart part;
-    part.status = status;
-    part.from.value = from;
-    part.to.value = to;
-    if (is_value) part.from.stops = part.to.stops = std::move(stops);
-    parts.push_back(std::move(part));
+  // Append a value, or an open interval, to what is known.
+  void add_value(RangeStatus status, const RangeEnd& at) {
+    if (!continues(status, at)) result_.parts.push_back({status, at, at});
+  }
+  void add_interval(RangeStatus status, const RangeEnd& from, const RangeEnd& to) {
+    if (!continues(status, to)) result_.parts.push_back({status, from, to});
+  }
+  bool continues(RangeStatus status, const RangeEnd& to) {
+    if (result_.parts.empty() || result_.parts.back().status != status) return false;
+    result_.parts.back().to = to;
+    return true;
   }
 
   const Mechanism& m_;
@@ -431,7 +553,8 @@ class RangeSearch {
   std::map<Rational, RangeStatus> known_;
   std::map<Pair, RigidBody> levels_;  // of pairs that have only a plane across the axis in common: the piece that stays
   std::size_t cells_left_ = 0;
-  double reach_ = 0;  // of the moving part, from the joint's turning point
+  std::vector<ScrewProduct> products_;  // of a screw, in the cell that is looked at
+  double reach_ = 0;                    // of the moving part, from the joint's turning point
   RangeOfMotion result_;
   RoughPolytope rough_moving_;
   RoughPolytope rough_fixed_;

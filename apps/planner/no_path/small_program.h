@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Linear programs in few variables, in doubles: for what is checked exactly afterwards.
+//
+// Its twin is rigid_search/linear_program.h, which has any number of variables and needs a point to begin with: the
+// dual of a program here is one of its programs. With that in its place, proofs that a cube, a box and a ball have no
+// path through a window take 1.14, 1.18 and 1.04 times as long (CPU s, 2026-11-28).
 #pragma once
 
 #include <array>

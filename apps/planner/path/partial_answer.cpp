@@ -40,6 +40,7 @@ Polyhedron interior_positions(const Scene& scene, const Monitor& watching) {
 }
 
 std::optional<Answer> partial_answer(const Scene& scene, const PathOptions& options, const Monitor& monitor) {
+  require_bounded_robot(scene);
   const auto is_mesh = [](const Polyhedron& set) { return set.complex().facets.size() >= kMeshFacets; };
   const bool any = is_mesh(scene.robot) || std::any_of(scene.obstacles.begin(), scene.obstacles.end(), is_mesh);
   return any && is_of_solids(scene) ? interior_answer(scene, options, monitor) : nearby_answer(scene, options, monitor);

@@ -51,6 +51,7 @@ Answer Problem::solve(const Rational3& start, const Rational3& goal, const PathO
 std::optional<Answer> Problem::invalid_end(const Scene& scene, const Rational3& start, const Rational3& goal,
                                            const Monitor& monitor) {
   require_no_rotation(scene);
+  require_bounded_robot(scene);
   Stopwatch watch;
   Answer answer;
   for (const auto& [position, status] :

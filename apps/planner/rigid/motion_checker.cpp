@@ -73,6 +73,11 @@ class MotionExamination {
 
   using Part = MotionParts<std::vector<Pair>>::Part;
 
+  // Whether contact of two pieces is a collision.
+  [[nodiscard]] bool closed(const RigidBody::Piece& a, const RigidBody::Piece& b) const {
+    return checker_.contact_ == ContactRule::kForbid || (limits_.surfaces_block && (a.flat || b.flat));
+  }
+
   [[nodiscard]] std::vector<Pair> root() const { return root_pair(checker_.robot_, checker_.obstacles_); }
 
   MotionVerdict collision_outside(double s) {
@@ -155,7 +160,7 @@ class MotionExamination {
     if (separation == Separation::kApart) return true;
     if (separation != Separation::kPerhaps || exact_tests_ >= limits_.max_exact) return false;
     // What touches in the closed sense is no case for smaller parts, but for the pose at which it does.
-    if (checker_.closed(a, b)) return false;
+    if (closed(a, b)) return false;
     ++exact_tests_;
     const std::vector<Rational3> swept = cells_.exact_images(part.from, part.to, a.mesh.vertices);
     if (!hulls_are_apart(swept, b.mesh.vertices, false)) return false;
@@ -174,7 +179,7 @@ class MotionExamination {
       const RigidBody::Piece& a = checker_.robot_.pieces()[robot];
       const RigidBody::Piece& b = checker_.obstacles_.pieces()[obstacle];
       const std::vector<Rational3> swept = cells_.exact_images(part.from, part.to, a.mesh.vertices);
-      const HullWitness witness = witness_of_hulls(swept, b.mesh.vertices, !checker_.closed(a, b));
+      const HullWitness witness = witness_of_hulls(swept, b.mesh.vertices, !closed(a, b));
       verdict_.touches = true;
       if (!witness.common) continue;
       // Images are those at both ends in turn, so the weights of the latter ones are the part that has passed.
@@ -217,7 +222,7 @@ class MotionExamination {
     if (!exact || slack > 0) return false;
     if (between) ++exact_tests_;
     const std::vector<Rational3> placed = cells_.exact_images(s, s, a.mesh.vertices);
-    return !hulls_are_apart(placed, b.mesh.vertices, checker_.closed(a, b));
+    return !hulls_are_apart(placed, b.mesh.vertices, closed(a, b));
   }
 
   // Pairs come by pieces of the robot, mostly.
@@ -262,7 +267,7 @@ MotionChecker MotionChecker::of_scene(const Scene& scene, const Monitor& monitor
           scene.box};
 }
 
-MotionVerdict MotionChecker::check(const RigidPose& pose) const {
+MotionVerdict MotionChecker::check(const RigidPose& pose, const CheckLimits& limits) const {
   const RigidMotion still(pose, pose);
   MotionVerdict verdict;
   if (!in_box(pose.position)) {
@@ -271,7 +276,7 @@ MotionVerdict MotionChecker::check(const RigidPose& pose) const {
     return verdict;
   }
   const Monitor nobody;
-  MotionExamination examination(*this, still, {}, nobody);
+  MotionExamination examination(*this, still, limits, nobody);
   examination.collides_at(0);
   return examination.take();
 }

@@ -58,6 +58,9 @@ struct CheckLimits {
   bool in_order = false;
   bool keep_parts = false;  ///< fill MotionVerdict::parts
   bool keep_pose = true;    ///< fill MotionVerdict::pose, which takes exact numbers
+  /// Surfaces collide with what they touch. Else, where contact is allowed, they collide with what has them inside of
+  /// one of its pieces; surfaces between its pieces are for the caller.
+  bool surfaces_block = true;
 
   /// Fewer parts: planners reject what takes long.
   [[nodiscard]] static CheckLimits for_planners() {
@@ -90,7 +93,7 @@ class MotionChecker {
   static MotionChecker of_scene(const Scene& scene, const Monitor& monitor = {});
 
   /// Exact. For a collision the verdict says where; it is never kUndecided.
-  [[nodiscard]] MotionVerdict check(const RigidPose& pose) const;
+  [[nodiscard]] MotionVerdict check(const RigidPose& pose, const CheckLimits& limits = {}) const;
   /// Never wrong; kUndecided if the limits are reached. Both ends are checked exactly, unless the motion is decided
   /// before. `monitor` can stop it (Interrupted).
   [[nodiscard]] MotionVerdict check(const RigidMotion& motion, const CheckLimits& limits = {},
@@ -108,9 +111,6 @@ class MotionChecker {
 
  private:
   friend class MotionExamination;
-  [[nodiscard]] bool closed(const RigidBody::Piece& a, const RigidBody::Piece& b) const {
-    return contact_ == ContactRule::kForbid || a.flat || b.flat;
-  }
 
   RigidBody robot_;
   RigidBody obstacles_;

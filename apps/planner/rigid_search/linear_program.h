@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Small linear programs in doubles, for guesses.
+// Small linear programs in doubles, for guesses. Programs in four variables that are solved thousands of times for
+// other bounds have their own solver, no_path/small_program.h.
 #pragma once
 
 #include <vector>

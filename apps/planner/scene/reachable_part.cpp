@@ -8,6 +8,7 @@ namespace nef::planner {
 
 Polyhedron reachable_part(const Polyhedron& obstacle, const Scene& scene, const Monitor& monitor,
                           const std::string& name) {
+  require_bounded_robot(scene);
   if (obstacle.is_bounded()) return obstacle;
   if (!scene.box) throw InputError(name + " is unbounded: give the scene a box");
   // No less than the distance of any point of the robot from its reference point.

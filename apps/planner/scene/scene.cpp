@@ -63,6 +63,10 @@ Rational3 end_of(const JsonReader& value, Rational* angle) {
 
 }  // namespace
 
+void require_bounded_robot(const Scene& scene) {
+  if (!scene.robot.is_bounded()) throw InputError("the robot is unbounded: a robot must be a bounded set");
+}
+
 void require_no_rotation(const Scene& scene) {
   if (scene.turns_freely) {
     throw InputError(

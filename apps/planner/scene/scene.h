@@ -66,6 +66,9 @@ inline bool is_in_box(const Rational3& position, const std::optional<std::array<
 /// that no answer about one orientation passes for an answer about all.
 void require_no_rotation(const Scene& scene);
 
+/// Throws InputError if the robot of the scene is unbounded, which files are not allowed to say, but code may.
+void require_bounded_robot(const Scene& scene);
+
 /// How scenes read meshes unless told otherwise, like all programs: what is enclosed at least once is solid.
 inline MeshOptions scene_meshes(const Monitor& monitor = {}) {
   return {.crossings = Crossings::kUnion, .monitor = monitor};
@@ -101,7 +104,7 @@ Scene read_cfg(const std::string& path, const MeshOptions& meshes = scene_meshes
 
 /// What of an obstacle the robot may reach, however it is turned about its reference point: all of a bounded one, else
 /// what is near the scene's box, cut far enough off that the cuts stay away from the robot. Throws InputError, which
-/// begins with `name`, if the obstacle is unbounded and the scene has no box.
+/// begins with `name`, if the obstacle is unbounded and the scene has no box, and if the robot is unbounded.
 Polyhedron reachable_part(const Polyhedron& obstacle, const Scene& scene, const Monitor& monitor,
                           const std::string& name = "an obstacle");
 

@@ -36,7 +36,7 @@ bool TurningValidityChecker::isValid(const ob::State* state) const {
 
 TurningMotionValidator::TurningMotionValidator(const ob::SpaceInformationPtr& si,
                                                std::shared_ptr<const TurningCollision> collision,
-                                               const TurningQuestion& question, int depth)
+                                               const TurningQuestion& question, unsigned depth)
     : ob::MotionValidator(si),
       collision_(std::move(collision)),
       low_(question.low),
@@ -58,7 +58,7 @@ bool TurningMotionValidator::isFree(const ob::State* s1, const ob::State* s2) co
     to.turn += moved;
     if (from.turn > high_ || to.turn < low_ || to.turn > high_) return false;
   }
-  return collision_->is_free(from) && collision_->is_free(from, to, depth_);
+  return collision_->is_free(from, to, depth_);
 }
 
 bool TurningMotionValidator::checkMotion(const ob::State* s1, const ob::State* s2) const {

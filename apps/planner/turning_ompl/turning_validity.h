@@ -34,7 +34,7 @@ class TurningValidityChecker : public ompl::base::StateValidityChecker {
 class TurningMotionValidator : public ompl::base::MotionValidator {
  public:
   TurningMotionValidator(const ompl::base::SpaceInformationPtr& si, std::shared_ptr<const TurningCollision> collision,
-                         const TurningQuestion& question, int depth = 8);
+                         const TurningQuestion& question, unsigned depth = 8);
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2) const override;
   /** \brief lastValid is the farthest end of 16 equal parts up to which the motion is valid. */
   bool checkMotion(const ompl::base::State* s1, const ompl::base::State* s2,
@@ -46,7 +46,7 @@ class TurningMotionValidator : public ompl::base::MotionValidator {
   std::shared_ptr<const TurningCollision> collision_;
   Turn low_;
   Turn high_;
-  int depth_;
+  unsigned depth_;
 };
 
 }  // namespace nef::planner

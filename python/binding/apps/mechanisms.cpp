@@ -65,7 +65,7 @@ py::tuple read_parts(const std::string& path) {
 // (measure, lower, upper, stops); the bounds are equal if the value is rational. A stop is (item, part, item of it).
 py::tuple told(const plan::RangeEnd& end, const plan::Mechanism& m) {
   constexpr unsigned kBits = 60;
-  const std::array<Rational, 2> around = plan::enclosure(end.value, kBits);
+  const std::array<Rational, 2> around = end.between ? *end.between : plan::enclosure(end.value, kBits);
   py::list stops;
   for (const plan::ContactPair& stop : end.stops) stops.append(py::make_tuple(stop.moving, stop.fixed, stop.of_fixed));
   return py::make_tuple(m.joint.measure_of(around[0]), to_fraction(around[0]), to_fraction(around[1]), stops);

@@ -22,6 +22,14 @@ Polyhedron random_obstacle(std::mt19937& random) {
   return make_box(low, high);
 }
 
+TEST_CASE("an unbounded robot is refused, with and without obstacles") {
+  Scene scene;
+  scene.robot = complement(make_box({0, 0, 0}, {1, 1, 1}));
+  CHECK_THROWS_WITH(free_positions(scene), Catch::Contains("the robot is unbounded"));
+  CHECK_THROWS_WITH(reachable_part(make_box({0, 0, 0}, {1, 1, 1}), scene, {}),
+                    Catch::Contains("the robot is unbounded"));
+}
+
 TEST_CASE("free positions after obstacles came, went and moved are those of a new start") {
   for (unsigned seed = 0; seed < nef::test::fewer(24); ++seed) {
     INFO("seed " << seed);

@@ -8,6 +8,7 @@
 
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/free_space/segments.h"
+#include "apps/planner/rigid/motion_checker.h"
 #include "apps/planner/turning_ompl/turning_planning.h"
 #include "nef/construct/construct.h"
 #include "tests/planner/scene_helpers.h"
@@ -77,13 +78,22 @@ TEST_CASE("a motion that turns is called free only if it is, and is if there is 
   const Scene scene = random_scene(random, R"("z")", ContactRule::kAllow);
   const TurningAxis axis = question_of(scene).axis;
   const TurningCollision collision(scene, axis);
+  const MotionChecker twin = MotionChecker::of_scene(scene);  // the same, since there are no surfaces
+  std::size_t equal = 0;
   const Polyhedron obstacles = unite_all(scene.obstacles);
   for (int i = 0; i < 120; ++i) {
     const auto some = [&]() -> Rational { return Rational(static_cast<long>(random() % 25) - 12) / 4; };
     const Pose from{{some(), some(), some()}, ratio(static_cast<long>(random() % 16), 8)};
     const Pose to{{some(), some(), from.position[2]}, from.turn + ratio(static_cast<long>(random() % 9) - 4, 6)};
+    const auto rigid = [&](const Pose& pose) { return RigidPose{pose.position, axis.quaternion(pose.turn)}; };
+    CHECK(collision.is_free(from) == (twin.check(rigid(from)).status == MotionVerdict::Status::kFree));
     if (!collision.is_free(from)) continue;
     const bool is_valid = collision.is_free(from, to);
+    const MotionVerdict::Status verdict =
+        twin.check(RigidMotion(rigid(from), rigid(to), MotionTiming::kSlerp), CheckLimits::for_planners()).status;
+    CHECK_FALSE((is_valid && verdict == MotionVerdict::Status::kCollides));
+    if (from.turn == to.turn) CHECK(is_valid == (verdict == MotionVerdict::Status::kFree));
+    if (is_valid == (verdict == MotionVerdict::Status::kFree)) ++equal;
     bool meets = false;
     for (int k = 0; k <= 8; ++k) {
       const double degrees = axis.degrees_of(from.turn) * (8 - k) / 8 + axis.degrees_of(to.turn) * k / 8;
@@ -98,6 +108,7 @@ TEST_CASE("a motion that turns is called free only if it is, and is if there is 
   }
   CHECK(valid > 15);
   CHECK(refused > 3);
+  CHECK(equal + 5 >= valid + refused);
   // On the floor, and along a wall.
   const Scene floor = scene_of(R"J({"robot": "box(-1,-1,0, 1,1,1)", "obstacles": ["box(-9,-9,-1, 9,9,0)",
     "box(2,-9,0, 3,9,4)"], "start": [0,0,0,0], "goal": [0,0,0,90], "rotation": {}})J");

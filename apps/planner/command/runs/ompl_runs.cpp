@@ -91,7 +91,11 @@ OmplOutcome run_ompl(const Problem& problem, const OmplRequest& request) {
   std::ostringstream line;
   line << setup.getPlanner()->getName() << ": solved " << outcome.solved << " of " << request.runs << " runs, mean "
        << seconds / request.runs << " s";
-  if (proved) line << ", proved that there is no path";
+  if (proved) {
+    line << ", proved that there is no path";
+  } else if (outcome.solved == 0 && !invalid) {
+    line << "; this proves nothing (without --ompl: a path, or a proof that there is none)";
+  }
   outcome.summary = line.str();
   if (invalid) {
     outcome.exit_code = 3;
@@ -101,7 +105,7 @@ OmplOutcome run_ompl(const Problem& problem, const OmplRequest& request) {
     outcome.answer.status = Answer::Status::kPath;
     outcome.exit_code = 0;
   } else {
-    outcome.answer.status = proved ? Answer::Status::kInfeasible : Answer::Status::kNoQuestion;
+    outcome.answer.status = proved ? Answer::Status::kInfeasible : Answer::Status::kUndecided;
     outcome.exit_code = proved ? 1 : 4;
   }
   return outcome;

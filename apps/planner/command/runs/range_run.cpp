@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // One run: read the mechanism, find its range, write the report, print a line for each part. The report has the ends as
-// exact roots and as doubles; the text has doubles and the first pair of items that touch.
+// exact roots, or as intervals of screws, and as doubles; the text has doubles and the first pair of items that touch.
 #include "apps/planner/command/runs/runs.h"
 
 #include <algorithm>
@@ -33,7 +33,9 @@ double measure_of(const QuadraticRoot& value, const Joint& joint) {
 json end_json(const RangeEnd& end, const Mechanism& m) {
   json result;
   result[m.joint.kind() == Joint::Kind::kSlider ? "stroke" : "degrees"] = measure_of(end.value, m.joint);
-  if (end.value.is_rational()) {
+  if (end.between) {
+    result["between"] = {to_string((*end.between)[0]), to_string((*end.between)[1])};
+  } else if (end.value.is_rational()) {
     result["value"] = to_string(end.value.rational);
   } else {
     const std::array<Rational, 2> around = enclosure(end.value, kBits);
@@ -104,7 +106,7 @@ int run_range(const Arguments& a) {
   try {
     range = range_of_motion(mechanism, limit.monitor());
   } catch (const Interrupted&) {
-    range.parts.assign(1, {RangeStatus::kUndecided, {mechanism.low, {}}, {mechanism.high, {}}});
+    range.parts.assign(1, {RangeStatus::kUndecided, {mechanism.low, {}, {}}, {mechanism.high, {}, {}}});
   }
   tell(a, {"range",
            mechanism.name,

@@ -144,7 +144,10 @@ void print(const Arguments& a, const TurningAnswer& answer, const Scene& scene, 
     return;
   }
   if (a.ompl.empty()) std::cout << ", " << counted(answer.cells, "cell", "cells") << " of angles";
-  if (answer.status == TurningAnswer::Status::kUndecided) {
+  if (answer.status == TurningAnswer::Status::kUndecided && !a.ompl.empty()) {
+    std::cout << ": " << a.ompl
+              << " found no path in time, which proves nothing (without --ompl: a path, or a proof that there is none)";
+  } else if (answer.status == TurningAnswer::Status::kUndecided) {
     std::cout << "; open:";
     for (const TurnRange& range : answer.open_ranges) {
       std::cout << ' ' << axis.degrees_of(range.low) << ".." << axis.degrees_of(range.high);

@@ -2,6 +2,7 @@
 #include "apps/program/set_info.h"
 #include "apps/studio/panels/expression_field.h"
 #include "apps/studio/panels/panel.h"
+#include "apps/studio/panels/set_questions.h"
 #include "nef/base/timing/stopwatch.h"
 
 namespace nef::studio {
@@ -39,7 +40,8 @@ Json box_of_part(const Json& request, const PanelContext& context) {
 PanelResult sets_panel(const Json& request, const PanelContext& context) {
   const Stopwatch watch;
   Messages notes;
-  const ExpressionCache::Result set = set_or_tiles_of_field(request, "text", context, notes);
+  const bool by_shapes = request.value("shapes", false);
+  const ExpressionCache::Result set = set_and_shapes_of_field(request, "text", context, !by_shapes, notes);
   PanelResult result;
   result.report["op_s"] = watch.seconds();
   result.report["notes"] = notes;
@@ -49,13 +51,20 @@ PanelResult sets_panel(const Json& request, const PanelContext& context) {
     result.report["result"] = info_of_tiles(*set.tiled, drawn);
     result.pieces = std::move(drawn.pieces);
     result.sets.emplace("result", *set.tiled);
-    return result;
+  } else {
+    result.report["result"] = set_info(*set.whole, {}, context.monitor);
+    result.sets.emplace("result", *set.whole);
+    if (by_shapes) {
+      result.layers = layers_by_shapes(*set.whole, set.shapes, context.monitor);
+    } else {
+      view::Layer& layer = result.layers.emplace_back();
+      layer.name = "result";
+      layer.scene = view::build_scene(*set.whole, {}, context.monitor);
+    }
   }
-  result.report["result"] = set_info(*set.whole, {}, context.monitor);
-  view::Layer& layer = result.layers.emplace_back();
-  layer.name = "result";
-  layer.scene = view::build_scene(*set.whole, {}, context.monitor);
-  result.sets.emplace("result", *set.whole);
+  answer_section(
+      request, [&] { return set.polyhedron(context.monitor); }, context, result);
+  answer_distance(request, context, result);
   return result;
 }
 

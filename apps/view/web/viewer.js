@@ -4,6 +4,7 @@
 // studio shows one after the other.
 import * as THREE from "three";
 import { CameraControl } from "./camera_control.js";
+import { FramePacer } from "./frame_pacer.js";
 import { itemText, markBadge, sphereItemText } from "./item_text.js";
 import { LayerView, dotMesh, lineMesh } from "./layer_view.js";
 import { sharedUniforms } from "./materials.js";
@@ -22,6 +23,8 @@ export class Viewer {
   constructor(page) {
     this.canvas = byId("view");
     this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: true, stencil: true });
+    this.sharpness = 1; // the share of the pixels of a side that is drawn
+    this.pacer = new FramePacer(this.renderer.getContext(), (share) => this.#render(share));
     this.#followColorScheme();
     this.camera = new THREE.PerspectiveCamera(32, 1, 0.1, 100);
     this.shared = sharedUniforms();
@@ -97,23 +100,30 @@ export class Viewer {
     const { clientWidth, clientHeight } = this.canvas;
     if (!clientWidth || !clientHeight) return;
     this.camera.aspect = clientWidth / clientHeight;
-    this.renderer.setPixelRatio(window.devicePixelRatio);
     this.renderer.setSize(clientWidth, clientHeight, false);
-    this.renderer.getDrawingBufferSize(this.shared.size.value);
-    this.shared.ratio.value = window.devicePixelRatio;
+    this.#sharpen(this.sharpness);
     this.requestDraw();
   }
 
-  requestDraw() {
-    if (this.drawRequested) return;
-    this.drawRequested = true;
-    requestAnimationFrame(() => {
-      this.drawRequested = false;
-      this.draw();
-    });
+  #sharpen(share) {
+    this.sharpness = share;
+    const ratio = window.devicePixelRatio * share;
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.getDrawingBufferSize(this.shared.size.value);
+    this.shared.ratio.value = ratio;
   }
 
+  requestDraw() {
+    this.pacer.request();
+  }
+
+  // Now, in all pixels.
   draw() {
+    this.#render(1);
+  }
+
+  #render(share) {
+    if (share !== this.sharpness) this.#sharpen(share);
     const distance = this.camera.position.length();
     this.camera.near = Math.max(distance - 1.5 * this.radius, distance * 0.01, this.radius * 0.002);
     this.camera.far = distance + 2 * this.radius;

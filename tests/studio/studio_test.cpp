@@ -195,28 +195,30 @@ TEST_CASE("Sets: an exact section, the distance of two shapes, shapes by colour"
   request["section"] = {{"axis", 0}, {"offset", "20"}};
   CHECK(compute(studio, request).report["section"]["polygons"] == 0);
   request["section"] = {{"axis", 3}, {"offset", "0"}};
-  CHECK(answer(studio, "compute", request, 422)["field"] == "section");
+  CHECK(compute(studio, request).report["question_error"]["field"] == "section");
   request["section"] = {{"axis", 1}, {"offset", "x"}};
-  CHECK(answer(studio, "compute", request, 422)["field"] == "section");
+  CHECK(compute(studio, request).report["question_error"]["field"] == "section");
   request["section"] = nullptr;
   request["to"] = "nothing";
-  CHECK(answer(studio, "compute", request, 422)["field"] == "to");
+  CHECK(compute(studio, request).report["question_error"]["field"] == "to");
   request["to"] = "box(";
-  CHECK(answer(studio, "compute", request, 422)["field"] == "to");
+  CHECK(compute(studio, request).report["question_error"]["field"] == "to");
   request["to"] = " ";
   CHECK(!compute(studio, request).report.contains("distance"));
 
-  request["text"] = "box(0,0,0, 2,2,2) + box(1,1,1, 3,3,3) - box(0,0,0, 1,1,1)";
+  request["text"] = "box(0,0,0, 2,2,2) + box(1,1,1, 3,3,3)";
   request["shapes"] = true;
   std::vector<std::string> names;
-  for (const Json& layer : compute(studio, request).scene["layers"]) names.push_back(layer["name"]);
+  const Computed shapes = compute(studio, request);
+  for (const Json& layer : shapes.scene["layers"]) names.push_back(layer["name"]);
   std::sort(names.begin(), names.end());
   CHECK(names == std::vector<std::string>{"shape 1", "shape 2", "shapes 1 and 2"});
   std::string many = "point(0,0,0)";
   for (int i = 1; i <= 12; ++i) many += " + point(" + std::to_string(i) + ",0,0)";
   request["text"] = many;
-  CHECK(answer(studio, "compute", request, 422)["error"].get<std::string>().find("at most 12 shapes") !=
-        std::string::npos);
+  const Computed too_many = compute(studio, request);
+  CHECK(too_many.report["question_error"]["field"] == "shapes");
+  CHECK(too_many.scene["layers"][0]["name"] == "result");
 }
 
 TEST_CASE("Sums: what a tool reaches") {

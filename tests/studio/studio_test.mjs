@@ -228,7 +228,7 @@ const tests = {
     await type(browser, "#distance-to", "");
     await click(browser, "#exact-on");
     await click(browser, "#shapes-on");
-    await browser.until("nefViewer.views.map(({ layer }) => layer.name).sort().join() === 'shape 1,shape 3'");
+    await browser.until("nefViewer.views.map(({ layer }) => layer.name).sort().join() === 'shape 1,shape 2'");
     await picture(browser, "sets_shapes");
     assert.ok((await browser.evaluate(countPixels("(r, g, b) => r > 1.4 * b && g > b"))) > 500, "another colour");
     await click(browser, "#shapes-on");

@@ -64,7 +64,8 @@ class FieldError : public InputError {
 std::string text_of(const Json& request, const std::string& member);
 
 /// An expression: {"text", "crossings": the rule for meshes, "part": an expression whose box is wanted, "shapes":
-/// whether its shapes are told apart by colour, and what set_questions.h asks}. Sets: "result", "section".
+/// whether its shapes are told apart by colour, and what set_questions.h asks}; of these, what is wrong is
+/// "question_error" of the report. Sets: "result", "section".
 PanelResult sets_panel(const Json& request, const PanelContext& context);
 /// Two operands: {"a", "b", "kind", "radius", "splits", "from": where the tool B begins}. Sets: "result"; of a reach
 /// "positions", "touched", "untouched".

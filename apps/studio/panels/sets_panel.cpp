@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <functional>
+
 #include "apps/program/set_info.h"
 #include "apps/studio/panels/expression_field.h"
 #include "apps/studio/panels/panel.h"
 #include "apps/studio/panels/set_questions.h"
+#include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
 
 namespace nef::studio {
@@ -35,6 +38,22 @@ Json box_of_part(const Json& request, const PanelContext& context) {
   }
 }
 
+// Answers a question beside the set. What is wrong with it is reported, and the set is there nevertheless.
+void answer_question(const char* field, const std::function<void()>& answer, PanelResult& result) {
+  const auto report = [&result](const std::string& wrong, const std::string& why) {
+    result.report["question_error"] = {{"field", wrong}, {"error", why}};
+  };
+  try {
+    answer();
+  } catch (const FieldError& error) {
+    report(error.field(), error.what());
+  } catch (const InputError& error) {
+    report(field, error.what());
+  } catch (const UnsupportedError& error) {
+    report(field, error.what());
+  }
+}
+
 }  // namespace
 
 PanelResult sets_panel(const Json& request, const PanelContext& context) {
@@ -55,16 +74,20 @@ PanelResult sets_panel(const Json& request, const PanelContext& context) {
     result.report["result"] = set_info(*set.whole, {}, context.monitor);
     result.sets.emplace("result", *set.whole);
     if (by_shapes) {
-      result.layers = layers_by_shapes(*set.whole, set.shapes, context.monitor);
-    } else {
+      const auto color = [&] { result.layers = layers_by_shapes(*set.whole, set.shapes, context.monitor); };
+      answer_question("shapes", color, result);
+    }
+    if (result.layers.empty()) {
       view::Layer& layer = result.layers.emplace_back();
       layer.name = "result";
       layer.scene = view::build_scene(*set.whole, {}, context.monitor);
     }
   }
-  answer_section(
-      request, [&] { return set.polyhedron(context.monitor); }, context, result);
-  answer_distance(request, context, result);
+  const auto whole = [&] { return set.polyhedron(context.monitor); };
+  answer_question(
+      "section", [&] { answer_section(request, whole, context, result); }, result);
+  answer_question(
+      "distance", [&] { answer_distance(request, context, result); }, result);
   return result;
 }
 

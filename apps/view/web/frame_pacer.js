@@ -4,11 +4,11 @@
 // asked for meanwhile would queue: the page would show what was long ago. So a frame begins only when the one before is on
 // the screen, and frames that take long are drawn in fewer pixels until nothing moves any more.
 
-const TARGET = 40; // milliseconds that a frame may take while something moves
-const SHARES = [1, 0.7, 0.5, 0.35, 0.25]; // of the pixels of a side
-const LOOK_EVERY = 4; // milliseconds
+const FRAME_TIME = 40; // milliseconds that a frame may take while something moves
+const FRAME_SHARES = [1, 0.7, 0.5, 0.35, 0.25]; // of the pixels of a side
+const FRAME_LOOK = 4; // milliseconds
 // Once nothing moves: after so many milliseconds, what surely takes no longer than so many. Who moves on waits for it.
-const REST = [{ after: 200, takes: 400 }, { after: 1200, takes: Infinity }];
+const FRAME_REST = [{ after: 200, takes: 400 }, { after: 1200, takes: Infinity }];
 
 export class FramePacer {
   // draw(share) draws a frame with that share of the pixels of a side.
@@ -41,7 +41,7 @@ export class FramePacer {
     });
   }
 
-  // rest: the entry of REST that comes next.
+  // rest: the entry of FRAME_REST that comes next.
   #frame(share, rest) {
     const { gl } = this;
     const begin = performance.now();
@@ -51,7 +51,7 @@ export class FramePacer {
     gl.flush();
     const look = () => {
       if (!gl.isContextLost() && gl.getSyncParameter(sync, gl.SYNC_STATUS) !== gl.SIGNALED) {
-        setTimeout(look, LOOK_EVERY);
+        setTimeout(look, FRAME_LOOK);
         return;
       }
       gl.deleteSync(sync);
@@ -62,20 +62,20 @@ export class FramePacer {
   }
 
   #end(share, rest, took) {
-    const fitting = (time) => SHARES.find((one) => took * (one / share) ** 2 <= time) ?? SHARES.at(-1);
+    const fitting = (time) => FRAME_SHARES.find((one) => took * (one / share) ** 2 <= time) ?? FRAME_SHARES.at(-1);
     if (rest === 0) {
-      this.slow = took > 1.5 * TARGET ? this.slow + 1 : 0;
+      this.slow = took > 1.5 * FRAME_TIME ? this.slow + 1 : 0;
       // The first frame of something large may take long on any card.
-      if (this.slow > 1) this.share = fitting(TARGET);
-      else if (took < TARGET / 3 && this.share < 1) this.share = SHARES[SHARES.indexOf(this.share) - 1];
+      if (this.slow > 1) this.share = fitting(FRAME_TIME);
+      else if (took < FRAME_TIME / 3 && this.share < 1) this.share = FRAME_SHARES[FRAME_SHARES.indexOf(this.share) - 1];
     }
     if (this.wanted) {
       this.#begin();
       return;
     }
     for (const done of this.waiting.splice(0)) done();
-    if (share === 1 || rest === REST.length) return;
-    const { after, takes } = REST[rest];
+    if (share === 1 || rest === FRAME_REST.length) return;
+    const { after, takes } = FRAME_REST[rest];
     const next = takes === Infinity ? 1 : fitting(takes);
     this.resting = setTimeout(() => this.#frame(next, rest + 1), after);
   }

@@ -124,14 +124,12 @@ export class SetsPanel {
         { text, part: this.mover.wanted, crossings: byId("sets-crossings").value, ...this.questions.request });
     } catch (error) {
       if (!(error instanceof ServerError)) throw error;
-      if (this.questions.showError(error)) return;
       this.#askAboutCrossings([error.message]);
       if (this.editor.text === text) this.editor.showError({ offset: error.field === "text" ? error.offset : 0, message: error.message });
       return;
     }
     if (!done) return;
     this.editor.showError(null);
-    this.questions.showError(null);
     const { report, scene, seconds } = done;
     fillTable(byId("sets-measures"), [...measureRows(report.result),
       ["Time", `${secondsText(report.op_s)} to compute, ${secondsText(seconds)} until shown`]]);

@@ -69,7 +69,8 @@ export class SetQuestions {
   }
 
   // The answers in a report; scene: where the set is.
-  show({ section, distance }, scene) {
+  show({ section, distance, question_error: error }, scene) {
+    byId("questions-error").textContent = error ? `${error.field}: ${error.error}` : "";
     this.#fitSlider(scene);
     this.svg = section?.svg ?? "";
     byId("exact-picture").hidden = !section;
@@ -97,13 +98,6 @@ export class SetQuestions {
     const { slider } = this.offset;
     Object.assign(slider, { step, min: Math.floor(low / step) * step, max: Math.ceil(high / step) * step });
     this.offset.value = this.offset.value; // the slider may reach it now
-  }
-
-  // The error of a field of it; true if it is one.
-  showError(error) {
-    const mine = ["section", "from", "to"].includes(error?.field);
-    byId("questions-error").textContent = mine ? `${error.field}: ${error.message}` : "";
-    return mine;
   }
 
   get commands() {

@@ -15,7 +15,7 @@ const root = mkdtempSync(join(tmpdir(), "nef-studio-pictures-"));
 copyFileSync(join(project, "data", "planner", "s1_tight_hole.json"), join(root, "s1_tight_hole.json"));
 
 const SET = "# a block with a pocket, and a ball beside it\nblock = box(0,0,0, 4,3,2) - translate(cylinder(3, 1), 2,3/2,1);\n" +
-  "ball = translate(ball(3/4, 5), 6,4,3);\nblock + ball";
+  "probe = translate(ball(3/4, 5), 6,4,3);\nblock + probe";
 
 const server = spawn(nef, ["studio", "--no-browser", "--root", root], { stdio: ["ignore", "pipe", "inherit"] });
 const address = await new Promise((done) => server.stdout.once("data", (bytes) => done(bytes.toString().trim())));
@@ -24,12 +24,12 @@ await browser.open(address, 1080, 680, "window.nefStudio?.ready");
 
 async function save(name) {
   await browser.until("document.querySelector('#progress').dataset.running === 'false'");
-  await browser.evaluate("document.activeElement.blur(), document.querySelector('#where').replaceChildren()"); // no names of folders
+  await browser.evaluate("document.activeElement.blur(), (document.querySelector('#where').style.visibility = 'hidden')"); // no names of folders
   writeFileSync(join(project, "docs", "pictures", `${name}.png`), await browser.screenshot());
 }
 
 await browser.evaluate(`(async () => {
-  nefStudio.sets.state = { text: ${JSON.stringify(SET)}, questions: { section: true, axis: "x", offset: "2", from: "block", to: "ball" } };
+  nefStudio.sets.state = { text: ${JSON.stringify(SET)}, questions: { section: true, axis: "x", offset: "2", from: "block", to: "probe" } };
   await nefStudio.sets.compute();
   nefViewer.reset();
   document.querySelector("#sets-questions").scrollIntoView({ block: "end" });

@@ -33,6 +33,11 @@ export class FramePacer {
     return this.busy ? new Promise((done) => this.waiting.push(done)) : Promise.resolve();
   }
 
+  // Somebody has drawn a frame in all pixels himself.
+  drawn() {
+    clearTimeout(this.resting);
+  }
+
   #begin() {
     this.busy = true;
     requestAnimationFrame(() => {

@@ -119,6 +119,7 @@ export class Viewer {
 
   // Now, in all pixels.
   draw() {
+    this.pacer.drawn();
     this.#render(1);
   }
 

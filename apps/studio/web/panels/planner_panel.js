@@ -231,7 +231,7 @@ export class PlannerPanel {
     if (answer.motions !== "translation") rows.push(["Motions", answer.motions]);
     if (answer.waypoints) rows.push(["Way-points", String(answer.waypoints)]);
     if (answer.cells > 0) rows.push(["Cells of angles", String(answer.cells)]);
-    if (answer.boxes > 0) rows.push(["Proof", `${answer.boxes} boxes of poses`]);
+    if (answer.status === "infeasible" && answer.boxes > 0) rows.push(["Proof", `${answer.boxes} boxes of poses`]);
     if (answer.length !== undefined) rows.push(["Length", String(Number(answer.length.toPrecision(8)))]);
     if (answer.proof) rows.push(["Proof", `start is in component ${answer.proof.start_component}, goal in component ${answer.proof.goal_component}`]);
     if (answer.components) {

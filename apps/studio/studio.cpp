@@ -166,13 +166,15 @@ Json Studio::start() const {
 
 Json Studio::read(const Json& request) const {
   const std::string name = text_of(request, "name");
-  if (!is_text_file(name)) throw InputError(name + ": only .nefstudio, .json, .cfg, .svg and .txt files are read as text");
+  if (!is_text_file(name))
+    throw InputError(name + ": only .nefstudio, .json, .cfg, .svg and .txt files are read as text");
   return {{"text", root_.read(name, kMostText)}};
 }
 
 Json Studio::write(const Json& request) const {
   const std::string name = text_of(request, "name");
-  if (!is_text_file(name)) throw InputError(name + ": text is written to .nefstudio, .json, .cfg, .svg and .txt files only");
+  if (!is_text_file(name))
+    throw InputError(name + ": text is written to .nefstudio, .json, .cfg, .svg and .txt files only");
   const std::string text = text_of(request, "text");
   if (text.size() > kMostText) throw InputError(name + ": the text has more than 8 MiB");
   std::error_code error;

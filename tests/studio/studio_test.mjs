@@ -379,8 +379,8 @@ const tests = {
     await picture(browser, "sums_offset");
     const kind = (name) => browser.evaluate(`(() => { const kind = document.querySelector("#sums-kind"); kind.value = "${name}"; kind.dispatchEvent(new Event("change")); })()`);
     // The way out of each other, drawn as an arrow.
-    await type(browser, "#sums-b textarea", "box(1,1,3/2, 3,3,3)");
     await kind("penetration");
+    await type(browser, "#sums-b textarea", "box(1,1,3/2, 3,3,3)");
     await browser.until(`${measure("sums-measures", "Shortest translation of B to contact")} === "0, 0, 1/2"`);
     assert.equal(await browser.evaluate(measure("sums-measures", "They")), "overlapping");
     assert.ok(await browser.evaluate("nefViewer.page.layers.some(({ lines }) => lines.some(({ name }) => name === 'translation'))"));

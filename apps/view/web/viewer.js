@@ -30,6 +30,9 @@ export class Viewer {
     this.shared = sharedUniforms();
     this.scene = new THREE.Scene();
     this.views = [];
+    // Views that are no longer seen, until others are drawn: shaders that nothing uses are forgotten, and to compile them again
+    // for each scene takes ten times as long as to draw it.
+    this.retired = [];
     this.selected = null;
     this.onSelect = () => {}; // told of every item that is selected, and of null
     this.details = null; // async (item): {exact, spheres} of its layer, of which only the item's need be there
@@ -55,7 +58,7 @@ export class Viewer {
     for (const view of this.views) {
       if (stays.has(view.layer)) continue;
       this.scene.remove(view.group);
-      view.dispose();
+      this.retired.push(view);
     }
     if (this.page) this.control.shift(this.page.center.map((x, i) => x - page.center[i]));
     this.page = page;
@@ -132,6 +135,7 @@ export class Viewer {
     this.camera.updateMatrixWorld();
     this.section.update();
     this.renderer.render(this.scene, this.camera);
+    for (const view of this.retired.splice(0)) view.dispose();
   }
 
   // For what is dragged from a pixel, so deep: the plane of the two coordinates that the eye looks across. at(x, y) is the

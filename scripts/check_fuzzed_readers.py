@@ -28,6 +28,7 @@ THROUGH = {
     "read_shape_file": "read_polyhedron and read_with_assimp",
     "read_with_assimp": "a library's parsers, in a process with limits",
     "read_cfg": "planner::read_scene",
+    "parse_cfg": "planner::read_scene",
     "parse_number": "every text format",
     "parse_openscad": "evaluate_openscad",
     "parse_expression": "evaluate_expression",

@@ -13,6 +13,8 @@ constexpr std::size_t kMostOfState = std::size_t{8} << 20U;
 // What the page would ask for, from what it keeps.
 Json request_of(const std::string& panel, Json state) {
   if (panel == "planner") state["scene"] = state.value("text", Json());
+  const Json questions = state.value("questions", Json());
+  if (panel == "sets" && questions.is_object()) state.update(questions.value("request", Json::object()));
   return state;
 }
 
@@ -36,7 +38,7 @@ void run_state(const StudioOptions& options, const std::string& output, std::ost
   SceneCache scenes(numbers);
   Computation computation(options.limits);
   computation.run(options.threads, [&](const Monitor& monitor) {
-    const PanelContext context{root, files, expressions, tiles, silhouettes, scenes, monitor};
+    const PanelContext context{root, files, expressions, tiles, silhouettes, scenes, numbers, monitor};
     const PanelResult result = panel->second(request_of(name, state[name]), context);
     if (!output.empty()) {
       const auto set = result.sets.contains("result") ? result.sets.find("result") : result.sets.begin();

@@ -48,7 +48,7 @@ std::string page_of(const Json& request) {
 }
 
 bool is_text_file(const std::string& name) {
-  constexpr std::array kExtensions{"nefstudio", "json", "txt"};
+  constexpr std::array kExtensions{"nefstudio", "json", "txt", "cfg", "svg"};
   return std::find(kExtensions.begin(), kExtensions.end(), lower_extension(name)) != kExtensions.end();
 }
 
@@ -166,13 +166,15 @@ Json Studio::start() const {
 
 Json Studio::read(const Json& request) const {
   const std::string name = text_of(request, "name");
-  if (!is_text_file(name)) throw InputError(name + ": only .nefstudio, .json and .txt files are read as text");
+  if (!is_text_file(name))
+    throw InputError(name + ": only .nefstudio, .json, .cfg, .svg and .txt files are read as text");
   return {{"text", root_.read(name, kMostText)}};
 }
 
 Json Studio::write(const Json& request) const {
   const std::string name = text_of(request, "name");
-  if (!is_text_file(name)) throw InputError(name + ": text is written to .nefstudio, .json and .txt files only");
+  if (!is_text_file(name))
+    throw InputError(name + ": text is written to .nefstudio, .json, .cfg, .svg and .txt files only");
   const std::string text = text_of(request, "text");
   if (text.size() > kMostText) throw InputError(name + ": the text has more than 8 MiB");
   std::error_code error;
@@ -245,7 +247,8 @@ WebReply Studio::compute(const Json& request) {
   std::string scene;
   std::string pieces;
   pages_.compute(page, [&](const Monitor& monitor) -> std::optional<Sets> {
-    result = panel->second(request, {root_, loaded_, expressions_, tiles_, silhouettes_, scenes_, monitor});
+    result =
+        panel->second(request, {root_, loaded_, expressions_, tiles_, silhouettes_, scenes_, piece_numbers_, monitor});
     view::PageOptions options;
     options.title = panel->first;
     options.details = false;

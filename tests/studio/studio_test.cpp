@@ -3,6 +3,7 @@
 // What pages ask, without a server in between.
 #include "apps/studio/studio.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <cmath>
@@ -161,6 +162,88 @@ TEST_CASE("Sets: what is wrong has its place") {
   CHECK(studio.answer({"GET", "/etc/passwd", ""}).status == 404);
 }
 
+// apps/studio/panels/set_questions.cpp
+TEST_CASE("Sets: an exact section, the distance of two shapes, shapes by colour") {
+  const Place place;
+  Studio studio({.root = place.root}, [] {});
+  Json request{{"page", "a"},
+               {"panel", "sets"},
+               {"text", "box(0,0,0, 3,3,3) - box(1,1,1, 2,2,2) + box(2,2,2, 4,4,4)"},
+               {"section", {{"axis", 2}, {"offset", "3/2"}}},
+               {"from", "box(0,0,0, 1,1,1)"},
+               {"to", "box(2,2,1, 3,3,3)"}};
+  const Computed computed = compute(studio, request);
+  const Json section = computed.report["section"];
+  CHECK(section["polygons"] == 1);
+  CHECK(section["area"] == 8);
+  CHECK(section["svg"].get<std::string>().find("<path d=\"M") != std::string::npos);
+  const Json distance = computed.report["distance"];
+  CHECK(distance["contact"] == "disjoint");
+  CHECK(distance["squared"] == "2");
+  CHECK(distance["from"] == Json({"1", "1", "1"}));
+  CHECK(distance["to"] == Json({"2", "2", "1"}));
+  CHECK(computed.report["pieces"].size() == 2);
+  answer(studio, "export", {{"set", "section"}, {"name", "section.nef"}});
+  const Polyhedron plane =
+      intersect(make_halfspace(0, 0, 1, Rational(-3, 2)), make_halfspace(0, 0, -1, Rational(3, 2)));
+  CHECK(equal(read_polyhedron((place.root / "section.nef").string()),
+              intersect(plane, subtract(make_box({0, 0, 0}, {3, 3, 3}), make_box({1, 1, 1}, {2, 2, 2})))));
+  // Of a set in tiles, too.
+  request["text"] = "sphere(10, 100) - box(0,-20,-20, 20,20,20)";
+  request["section"] = {{"axis", 0}, {"offset", "-1"}};
+  CHECK(compute(studio, request).report["section"]["polygons"] == 1);
+  request["section"] = {{"axis", 0}, {"offset", "20"}};
+  CHECK(compute(studio, request).report["section"]["polygons"] == 0);
+  request["section"] = {{"axis", 3}, {"offset", "0"}};
+  CHECK(compute(studio, request).report["question_error"]["field"] == "section");
+  request["section"] = {{"axis", 1}, {"offset", "x"}};
+  CHECK(compute(studio, request).report["question_error"]["field"] == "section");
+  request["section"] = nullptr;
+  request["to"] = "nothing";
+  CHECK(compute(studio, request).report["question_error"]["field"] == "to");
+  request["to"] = "box(";
+  CHECK(compute(studio, request).report["question_error"]["field"] == "to");
+  request["to"] = " ";
+  CHECK(!compute(studio, request).report.contains("distance"));
+
+  request["text"] = "box(0,0,0, 2,2,2) + box(1,1,1, 3,3,3)";
+  request["shapes"] = true;
+  std::vector<std::string> names;
+  const Computed shapes = compute(studio, request);
+  for (const Json& layer : shapes.scene["layers"]) names.push_back(layer["name"]);
+  std::sort(names.begin(), names.end());
+  CHECK(names == std::vector<std::string>{"shape 1", "shape 2", "shapes 1 and 2"});
+  std::string many = "point(0,0,0)";
+  for (int i = 1; i <= 12; ++i) many += " + point(" + std::to_string(i) + ",0,0)";
+  request["text"] = many;
+  const Computed too_many = compute(studio, request);
+  CHECK(too_many.report["question_error"]["field"] == "shapes");
+  CHECK(too_many.scene["layers"][0]["name"] == "result");
+}
+
+TEST_CASE("Sums: what a tool reaches") {
+  const Place place;
+  Studio studio({.root = place.root}, [] {});
+  // A slot of width 1 in the middle of a cube, and a tool of side 2, or 1, which fits.
+  Json request{{"page", "a"},
+               {"panel", "sums"},
+               {"a", "box(0,0,0, 5,5,5) - box(2,-1,3, 3,6,6)"},
+               {"b", "box(0,0,0, 2,2,2)"},
+               {"kind", "reach"}};
+  Computed computed = compute(studio, request);
+  CHECK(computed.report["untouched"].is_object());
+  CHECK(computed.scene["layers"].size() == 4);
+  request["b"] = "box(0,0,0, 1,1,1)";
+  CHECK(compute(studio, request).report["untouched"].is_null());
+  answer(studio, "export", {{"set", "touched"}, {"name", "touched.nef"}});
+  request["from"] = "1,1";
+  CHECK(answer(studio, "compute", request, 422)["field"] == "from");
+  request["from"] = "1,1,1";  // in the part
+  answer(studio, "compute", request, 422);
+  request["from"] = "9, 1/2, 1";
+  CHECK(compute(studio, request).report["untouched"].is_null());
+}
+
 TEST_CASE("Sums: sums, offsets between bounds, penetration") {
   const Place place;
   Studio studio({.root = place.root}, [] {});
@@ -275,6 +358,69 @@ TEST_CASE("Planner: obstacles that rest are kept, and files are read again when 
   write_polyhedron((place.root / "cube.off").string(), make_box({0, 0, 0}, {1, 6, 1}));
   fs::last_write_time(place.root / "cube.off", fs::file_time_type::clock::now() + std::chrono::seconds(5));
   CHECK(compute(studio, request).report["answer"]["status"] == "invalid_start");
+}
+
+// apps/studio/panels/planner/turning_answers.cpp
+TEST_CASE("Planner: robots that turn") {
+  const Place place;
+  Studio studio({.root = place.root}, [] {});
+  const auto scene = [](const std::string& rest) {
+    return R"~({"robot": "box(-1,-1/4,-1/4, 1,1/4,1/4)", "obstacles": ["box(2,-5,-5, 3,5,5)"], )~" + rest + "}";
+  };
+  Json request{{"page", "a"}, {"panel", "planner"}, {"folder", ""}};
+  request["scene"] = scene(R"~("box": [[-4,-4,-4], [4,4,4]], "rotation": {"axis": "z", "range": [0, 90]},
+    "start": [0, 0, 0, 0], "goal": [0, 0, 0, 90])~");
+  Computed computed = compute(studio, request);
+  CHECK(computed.report["answer"]["status"] == "path");
+  CHECK(computed.report["answer"]["motions"] == "translation and turning");
+  CHECK(computed.report["goal"] == Json({"0", "0", "0", "90"}));
+  CHECK(computed.scene["layers"][0]["motion"]["turns"].size() > 1);
+  request["goal"] = {"3/2", "0", "0", "0"};  // in the wall
+  CHECK(compute(studio, request).report["answer"]["status"] == "invalid_goal");
+  request["goal"] = {"3/2", "0", "0", "90"};  // beside it
+  request["dragged"] = true;
+  CHECK(compute(studio, request).report["answer"]["status"] == "path");
+  request["goal"] = {"1", "0"};
+  CHECK(answer(studio, "compute", request, 422)["field"] == "goal");
+  request["goal"] = nullptr;
+  request["dragged"] = false;
+  request["scene"] = scene(R"~("box": [[-4,-4,-4], [4,4,4]], "rotation": "SO(3)",
+    "start": {"position": [0, 0, 0], "quaternion": [1, 0, 0, 0]}, "goal": {"position": [0, 1, 0], "quaternion": [1, 0, 0, 1]})~");
+  computed = compute(studio, request);
+  CHECK(computed.report["answer"]["status"] == "path");
+  CHECK(computed.report["answer"]["motions"] == "rigid");
+  CHECK(computed.report["goal"] == Json({"0", "1", "0", "1", "0", "0", "1"}));
+  request["moves"] = {{"0", {"-2", "0", "0"}}};
+  CHECK(compute(studio, request).report["answer"]["status"] == "invalid_start");
+}
+
+TEST_CASE("Planner: a .cfg scene of OMPL.app, and a planner of OMPL beside ours") {
+  const Place place;
+  Studio studio({.root = place.root}, [] {});
+  const auto cfg = [](const std::string& robot) {
+    return "[problem]\nrobot = " + robot + "\nrobot.origin = mesh\nworld = cube.off\nstart.x = 3\nstart.y = 0\n" +
+           "start.z = 0\ngoal.x = -3\ngoal.y = 0\ngoal.z = 0\nvolume.min.x = -5\nvolume.min.y = -5\n" +
+           "volume.min.z = -5\nvolume.max.x = 5\nvolume.max.y = 5\nvolume.max.z = 5\n";
+  };
+  Json request{{"page", "a"}, {"panel", "planner"}, {"scene", cfg("cube.off")}, {"folder", ""}, {"ompl", "RRTConnect"}};
+  Computed computed = compute(studio, request);
+  CHECK(computed.report["answer"]["status"] == "path");
+  CHECK(computed.report["start"] == Json({"3", "0", "0"}));
+  CHECK(computed.report["ompl"]["status"] == "path");
+  CHECK(computed.report["ompl"]["length"].get<double>() >= 6);
+  CHECK(computed.scene["layers"].back()["name"] == "path of RRTConnect");
+  request["dragged"] = true;
+  CHECK(!compute(studio, request).report.contains("ompl"));
+  request["ompl"] = "None";
+  answer(studio, "compute", request, 422);
+  request["ompl"] = "";
+  for (const char* file : {"../outside.off", "link.off", "/etc/passwd"}) {
+    request["scene"] = cfg(file);
+    CHECK(answer(studio, "compute", request, 422)["error"].get<std::string>().find("below the folder") !=
+          std::string::npos);
+  }
+  request["scene"] = "[problem]\nrobot\n";
+  answer(studio, "compute", request, 422);
 }
 
 TEST_CASE("Hulls: views switched off, and images of the scene") {

@@ -5,7 +5,7 @@
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { copyFileSync, cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { join, resolve } from "node:path";
+import { basename, join, resolve } from "node:path";
 import { addDecimals, decimalNear, stepNumber } from "../../apps/studio/web/exact.js";
 import { movedPart, partAt, scaledPart, turnedPart, withDefinitions } from "../../apps/studio/web/parts/part_at.js";
 import { Browser, findChromium } from "../view/browser/chromium.mjs";
@@ -88,6 +88,15 @@ const countPixels = (test) => `(() => {
   return count;
 })()`;
 const BLUE = "(r, g, b) => b > 1.25 * r && b > 90";
+
+// A place of the page where a layer is seen, maybe behind others.
+const placeOf = (name) => `(() => {
+  const layer = nefViewer.views.findIndex(({ layer }) => layer.name === ${JSON.stringify(name)});
+  const box = nefViewer.canvas.getBoundingClientRect();
+  for (let x = 10; x < box.width; x += 6) for (let y = 10; y < box.height; y += 6) {
+    if (document.elementFromPoint(box.x + x, box.y + y) === nefViewer.canvas && nefViewer.picker.facets(x, y).some((hit) => hit.layer === layer)) return [box.x + x + 3, box.y + y + 3];
+  }
+})()`;
 
 // The pictures that people should look at, by name.
 async function picture(browser, name) {
@@ -177,6 +186,53 @@ const tests = {
     await focus(browser, "#sets-redo");
     await browser.key("Enter", { text: "\r" });
     await browser.until(`${measure("sets-measures", "Volume")} === "6"`);
+  },
+
+  async "sets: versions are kept in the state"(browser) {
+    await browser.until(`${text("#kept")} === "saved"`);
+    await openStudio(browser, server.address);
+    await browser.until(`${measure("sets-measures", "Volume")} === "6"`);
+    await click(browser, "#sets-undo");
+    await browser.until(`${measure("sets-measures", "Volume")} === "5"`);
+    await click(browser, "#sets-redo");
+    await browser.until(`${measure("sets-measures", "Volume")} === "6"`);
+  },
+
+  async "sets: an exact section by the slider, the distance of two parts, shapes by colour"(browser) {
+    await type(browser, AREA, "a = box(0,0,0, 3,3,3);\nb = translate(box(0,0,0, 1,1,1), 5,4,7);\na - box(1,1,1, 2,2,2) + b");
+    await browser.until(`${measure("sets-measures", "Volume")} === "27"`);
+    await click(browser, "#sets-questions summary");
+    await click(browser, "#exact-on");
+    await browser.until(`${measure("questions-measures", "Section")} === "1 polygon, area 9"`);
+    await focus(browser, "#exact-slider");
+    while (Number(await browser.evaluate(value("#exact-offset"))) < 1.4) await browser.key("ArrowRight");
+    await browser.until(`${measure("questions-measures", "Section")} === "1 polygon, area 8"`); // with a hole
+    assert.equal(await browser.evaluate("nefViewer.views.some(({ layer }) => layer.name === 'section')"), true);
+    await type(browser, "#exact-name", "cut");
+    await click(browser, "#exact-save");
+    await browser.until(`${text("#exact-saved")} === "cut.svg written"`);
+    assert.match(readFileSync(join(root, "cut.svg"), "utf8"), /<path d="M.*M/); // the ring and its hole
+    // The nearest points of the cube and the box beside it, by name and by the cursor.
+    await type(browser, "#distance-from", "a");
+    await browser.evaluate(`document.querySelector("${AREA}").setSelectionRange(32, 32)`);
+    await click(browser, "#distance-to-here");
+    assert.equal(await browser.evaluate(value("#distance-to")), "translate(box(0,0,0, 1,1,1), 5,4,7)");
+    await browser.until(`${measure("questions-measures", "Distance")} === "4.582575695, the root of 21"`);
+    assert.equal(await browser.evaluate(measure("questions-measures", "From")), "3, 3, 3");
+    assert.equal(await browser.evaluate(measure("questions-measures", "To")), "5, 4, 7");
+    await picture(browser, "sets_questions");
+    assert.ok((await browser.evaluate(countPixels("(r, g, b) => r > 170 && g < 80 && b > 70 && b < 150"))) > 100, "the way between them is drawn");
+    assert.match(await browser.evaluate(text("#sets-commands")), /nef distance from\.nef to\.nef/);
+    await type(browser, "#distance-to", "a +");
+    await browser.until(`${text("#questions-error")}.startsWith("to: ")`);
+    await type(browser, "#distance-to", "");
+    await click(browser, "#exact-on");
+    await click(browser, "#shapes-on");
+    await browser.until("nefViewer.views.map(({ layer }) => layer.name).sort().join() === 'shape 1,shape 2'");
+    await picture(browser, "sets_shapes");
+    assert.ok((await browser.evaluate(countPixels("(r, g, b) => r > 1.4 * b && g > b"))) > 500, "another colour");
+    await click(browser, "#shapes-on");
+    await browser.until("nefViewer.views.map(({ layer }) => layer.name).join() === 'result'");
   },
 
   async "a click in the view shows what it hits, with its sphere map"(browser) {
@@ -321,6 +377,27 @@ const tests = {
     const volume = (side) => `Number(${measure("sums-measures", `Volume, ${side}`)}?.split("\u2248").pop().split("\u00b1")[0])`;
     await browser.until(`${volume("inner")} < ${round} && ${round} < ${volume("outer")}`);
     await picture(browser, "sums_offset");
+    const kind = (name) => browser.evaluate(`(() => { const kind = document.querySelector("#sums-kind"); kind.value = "${name}"; kind.dispatchEvent(new Event("change")); })()`);
+    // The way out of each other, drawn as an arrow.
+    await kind("penetration");
+    await type(browser, "#sums-b textarea", "box(1,1,3/2, 3,3,3)");
+    await browser.until(`${measure("sums-measures", "Shortest translation of B to contact")} === "0, 0, 1/2"`);
+    assert.equal(await browser.evaluate(measure("sums-measures", "They")), "overlapping");
+    assert.ok(await browser.evaluate("nefViewer.page.layers.some(({ lines }) => lines.some(({ name }) => name === 'translation'))"));
+    await picture(browser, "sums_penetration");
+    // A tool of side 2 does not get into a slot of width 1.
+    await type(browser, "#sums-a textarea", "box(0,0,0, 5,5,5) - box(1,-1,2, 2,6,6)");
+    await type(browser, "#sums-b textarea", "box(0,0,0, 2,2,2)");
+    await kind("reach");
+    await browser.until(`![undefined, "none"].includes(${measure("sums-measures", "Boundary untouched")})`);
+    await picture(browser, "sums_reach");
+    assert.ok((await browser.evaluate(countPixels("(r, g, b) => r > 1.5 * b && r > 150"))) > 1000, "what it does not touch is seen");
+    assert.match(await browser.evaluate(text("#sums-commands")), /minkowski b\.nef a\.nef --reach -o positions\.nef/);
+    await type(browser, "#sums-from", "1,1");
+    await browser.until(`${text("#sums-error")}.includes("is not a point")`);
+    await type(browser, "#sums-from", "9,9,9");
+    await browser.until(`${text("#sums-error")} === "" && document.querySelector('#progress').dataset.running === 'false'`);
+    await kind("offset");
     await type(browser, "#sums-a textarea", "box(0,0");
     await browser.until(`${text("#sums-a .error")} !== ""`);
   },
@@ -376,13 +453,7 @@ const tests = {
     await browser.until(`${text("#planner-status")} === "There is a path."`);
     // By the mouse: the robot from its start into the floor.
     const before = await browser.evaluate(value("#planner-start-x"));
-    const [x, y] = await browser.evaluate(`(() => {
-      const layer = nefViewer.views.findIndex(({ layer }) => layer.name === "robot");
-      const box = nefViewer.canvas.getBoundingClientRect();
-      for (let x = 10; x < box.width; x += 6) for (let y = 10; y < box.height; y += 6) {
-        if (document.elementFromPoint(box.x + x, box.y + y) === nefViewer.canvas && nefViewer.picker.facets(x, y).some((hit) => hit.layer === layer)) return [box.x + x + 3, box.y + y + 3];
-      }
-    })()`);
+    const [x, y] = await browser.evaluate(placeOf("robot"));
     await browser.drag([x, y], [x - 90, y]);
     const after = await browser.evaluate(value("#planner-start-x"));
     assert.notEqual(after, before);
@@ -393,6 +464,16 @@ const tests = {
     await picture(browser, "planner_invalid");
     await type(browser, "#planner-start-x", "1");
     await browser.until(`${text("#planner-status")} === "There is a path."`);
+    // The wall, which is seen through the walls of the room.
+    await click(browser, "#planner-drag");
+    await browser.until(`document.querySelector("#progress").dataset.running === "false"`);
+    const wall = await browser.evaluate(placeOf("obstacle 1"));
+    await browser.drag(wall, [wall[0] + 40, wall[1]]);
+    await browser.until(`document.querySelector("#progress").dataset.running === "false"`);
+    assert.ok((await browser.evaluate(`["x", "y", "z"].some((axis) => !["0", "0.4"].includes(document.querySelector("#planner-move-" + axis).value))`)), "it was moved");
+    await click(browser, "#planner-drag");
+    for (const [axis, number] of [["x", "0"], ["y", "0.4"], ["z", "0"]]) await type(browser, `#planner-move-${axis}`, number);
+    await browser.until(`${text("#planner-status")} === "There is a path."`);
     assert.match(await browser.evaluate(text("#planner-commands")), /planner saved-scene\.json --start 1,1\/2,1\/2 /);
     await browser.evaluate(`document.querySelectorAll("#planner details").forEach((one) => (one.open = true))`);
     await click(browser, "#planner-save");
@@ -401,6 +482,46 @@ const tests = {
     assert.match(saved.obstacles[1], /^translate\(.*, 0,0\.4,0\)$/);
     // The path is in the picture, and the motion can be played.
     assert.equal(await browser.evaluate(hiddenNow("#time")), false);
+  },
+
+  async "planner: one axis, all rotations, a .cfg scene, an OMPL planner beside ours"(browser) {
+    const open = async (name) => {
+      await browser.evaluate(`document.querySelector("#planner-file").value = "${name}"`);
+      await click(browser, "#planner-open");
+      await browser.until(`${text("#planner-title")} === "${name}" && document.querySelector("#progress").dataset.running === "false"`);
+    };
+    await openStudio(browser, server.address);
+    await click(browser, "#tabs [data-panel=planner]");
+    // A bar round a corner, which takes a turn by 90 degrees.
+    await open("corner.json");
+    await browser.until(`${text("#planner-status")} === "There is a path, certified."`);
+    assert.equal(await browser.evaluate(value("#planner-goal-turn")), "90");
+    await picture(browser, "planner_corner");
+    const poses = () => browser.evaluate("(({ motion }) => [...motion.times.keys()].length > 1 && motion.turns.length)(nefViewer.page.layers[0])");
+    assert.ok((await poses()) > 1, "it turns on its way");
+    await type(browser, "#planner-goal-turn", "0");
+    await browser.until(`document.querySelector("#planner-status").className === "status invalid_goal"`);
+    // The same bar past a wall, which may turn about all axes.
+    await open("rigid.json");
+    await browser.until(`${text("#planner-status")} === "There is a path, certified." && ${measure("planner-measures", "Motions")} === "rigid"`);
+    assert.equal(await browser.evaluate(value("#planner-goal-turn")), "1, 0, 0, 1");
+    await picture(browser, "planner_rigid");
+    // OMPL.app's file: the fields get what it says; the hole has the robot's size, so that sampling finds none.
+    await open("wall.cfg");
+    await browser.until(`${text("#planner-status")} === "There is a path."`);
+    assert.equal(await browser.evaluate(value("#planner-start-x")), "2");
+    assert.match(await browser.evaluate(text("#planner-commands")), /planner wall\.cfg --start 2,1,-1 --goal 7,3\/2,-3\/2/);
+    const ompl = (name) => browser.evaluate(`(() => { const list = document.querySelector("#planner-ompl"); list.value = "${name}"; list.dispatchEvent(new Event("change")); })()`);
+    await type(browser, "#planner-seconds", "1");
+    await ompl("RRTConnect");
+    await browser.until(`${measure("planner-measures", "RRTConnect")} !== undefined`);
+    await picture(browser, "planner_ompl");
+    await ompl("");
+    // Tight passages by name.
+    await open("s1_tight_hole.json");
+    if (!(await browser.evaluate('document.querySelector("#planner-free").checked'))) await click(browser, "#planner-free");
+    await browser.until(`/^line 0: \\(.*on the path$/.test(document.querySelector("#planner-passages li")?.textContent)`);
+    await click(browser, "#planner-passages button");
   },
 
   async "a computation is cancelled in the middle"(browser) {
@@ -511,7 +632,13 @@ const cube = [0, 1, 2, 3, 4, 5, 6, 7].map((i) => [i & 1, (i >> 1) & 1, i >> 2]);
 const sides = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]];
 writeFileSync(join(root, "two.off"), `OFF\n16 12 0\n${[...cube, ...cube.map((p) => p.map((x) => x + 0.5))].map((p) => p.join(" ")).join("\n")}\n` +
   `${[...sides, ...sides.map((side) => side.map((i) => i + 8))].map((side) => `4 ${side.join(" ")}`).join("\n")}\n`);
-copyFileSync(join(data, "planner", "s1_tight_hole.json"), join(root, "s1_tight_hole.json"));
+for (const name of ["s1_tight_hole.json", "corner.json", "omplapp/wall.cfg", "omplapp/cube.dae", "omplapp/wall.dae"]) {
+  copyFileSync(join(data, "planner", name), join(root, basename(name)));
+}
+writeFileSync(join(root, "rigid.json"), JSON.stringify({
+  robot: "box(-1,-1/4,-1/4, 1,1/4,1/4)", obstacles: ["box(2,-5,-5, 3,5,5)"], box: [[-4, -4, -4], [4, 4, 4]], rotation: "SO(3)",
+  start: { position: [0, 0, 0], quaternion: [1, 0, 0, 0] }, goal: { position: [1.5, 1, 0], quaternion: [1, 0, 0, 1] },
+}));
 cpSync(join(data, "visual_hull", "eight"), root, { recursive: true });
 server = await startServer();
 

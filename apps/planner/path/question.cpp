@@ -15,6 +15,12 @@ Problem::Problem(Scene scene, const Monitor& monitor) : scene_(std::move(scene))
   phases_["cells"] = watch.lap();
 }
 
+Problem::Problem(Scene scene, Polyhedron free) : scene_(std::move(scene)) {
+  Stopwatch watch;
+  free_ = std::make_shared<const FreeSpace>(std::move(free));
+  phases_["cells"] = watch.lap();
+}
+
 Answer Problem::solve(const PathOptions& options, const Monitor& monitor) const {
   if (!scene_.start) throw InputError(scene_.name + ": the scene has no start; add one, or use --start x,y,z");
   if (!scene_.goal) throw InputError(scene_.name + ": the scene has no goal; add one, or use --goal x,y,z");

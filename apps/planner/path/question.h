@@ -16,6 +16,8 @@ class Problem {
  public:
   /// Computes the free positions and the roadmap. Throws InputError.
   explicit Problem(Scene scene, const Monitor& monitor = {});
+  /// A problem whose free positions are known: those of the scene, as free_positions finds them.
+  Problem(Scene scene, Polyhedron free);
 
   [[nodiscard]] const Scene& scene() const { return scene_; }
   [[nodiscard]] const FreeSpace& free_space() const { return *free_; }

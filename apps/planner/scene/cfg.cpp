@@ -3,12 +3,13 @@
 // OMPL.app's problem files: lines `key = value` of section [problem], all others ignored ([benchmark] and [planner]
 // concern OMPL's own programs). The rotations of start and goal decide what the scene is: equal ones are applied to the
 // robot once, different ones about one axis make a robot that turns. Of others only paths are certified.
+#include "apps/planner/scene/cfg.h"
+
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <sstream>
 
-#include "apps/planner/scene/scene.h"
 #include "apps/planner/scene/shapes.h"
 #include "nef/base/error.h"
 #include "nef/base/text/in_quotes.h"
@@ -26,8 +27,7 @@ std::string trimmed(const std::string& text) {
 /// The keys of section [problem].
 class ProblemKeys {
  public:
-  explicit ProblemKeys(const std::string& path) : path_(path) {
-    std::string text = read_file(path);
+  ProblemKeys(std::string text, const std::string& path) : path_(path) {
     if (text.rfind("\xEF\xBB\xBF", 0) == 0) text.erase(0, 3);  // a byte order mark
     std::istringstream in(text);
     std::string line;
@@ -168,9 +168,20 @@ std::string beside(const std::string& path, const std::string& file) {
 
 }  // namespace
 
-Scene read_cfg(const std::string& path, const MeshOptions& meshes) {
+Scene read_cfg(const std::string& path, const MeshOptions& meshes) { return parse_cfg(read_file(path), path, meshes); }
+
+std::vector<std::string> files_of_cfg(const std::string& text, const std::string& path) {
+  const ProblemKeys keys(text, path);
+  std::vector<std::string> files;
+  for (const char* key : {"robot", "world"}) {
+    if (keys.has(key)) files.push_back(keys.text(key));
+  }
+  return files;
+}
+
+Scene parse_cfg(const std::string& text, const std::string& path, const MeshOptions& meshes) {
   const Monitor& monitor = meshes.monitor;
-  const ProblemKeys keys(path);
+  const ProblemKeys keys(text, path);
   Scene scene;
   scene.name = std::filesystem::path(path).stem().string();
   Rational3 mean;

@@ -83,6 +83,7 @@ ExpressionCache::Result ExpressionCache::evaluate(const std::string& text, const
   Result result;
   if (tiles) result.tiled = in_tiles(steps, sets, files, way, options.monitor);
   if (!result.tiled) result.whole = steps.combined(sets, options);
+  result.shapes = std::move(sets);
   return result;
 }
 

@@ -25,10 +25,15 @@ class ExpressionCache {
   /// What tells of a file before it is read: of its name in an expression.
   using StateOfFile = std::function<FileState(const std::string& name)>;
 
-  /// One of them.
+  /// The set, as one of them.
   struct Result {
     std::optional<Polyhedron> whole;
     std::optional<TiledPolyhedron> tiled;
+    std::vector<Polyhedron> shapes;  ///< the sets that the operators of the text join
+
+    [[nodiscard]] Polyhedron polyhedron(const Monitor& monitor) const {
+      return whole ? *whole : tiled->polyhedron(monitor);
+    }
   };
 
   /// The set of a text, as evaluate_expression makes it; in tiles if the first set of the text is large and bounded,

@@ -3,6 +3,7 @@
 
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/free_space/free_positions.h"
+#include "apps/planner/scene/cfg.h"
 #include "apps/program/expression/expression.h"
 #include "apps/program/reports/exact_json.h"
 #include "apps/view/page.h"
@@ -71,9 +72,24 @@ ScenePointer SceneCache::scene(const RootFolder& root, const std::string& text, 
   if (std::optional<ScenePointer> kept = scenes_.find({text, folder})) return *kept;
   if (fs::path(folder).is_absolute()) throw InputError(folder + ": the folder of a scene is named from the root");
   std::vector<FileState> files;
-  add_files(parse_exact_json(text, "the scene"), folder, root, files);
-  ScenePointer scene = std::make_shared<const planner::Scene>(
-      planner::parse_scene(text, (root.path() / folder).string(), "the scene", planner::scene_meshes(monitor)));
+  const fs::path place = root.path() / folder;
+  const MeshOptions meshes = planner::scene_meshes(monitor);
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  planner::Scene read;
+  if (first != std::string::npos && text[first] != '{') {
+    const std::string path = (place / "the scene").string();
+    for (const std::string& name : planner::files_of_cfg(text, path)) {
+      files.push_back(state_of_mesh(root.mesh(name, folder)));
+    }
+    read = planner::parse_cfg(text, path, meshes);
+    for (std::string& message : read.messages) {
+      if (message.starts_with(path)) message = "the scene" + message.substr(path.size());
+    }
+  } else {
+    add_files(parse_exact_json(text, "the scene"), folder, root, files);
+    read = planner::parse_scene(text, place.string(), "the scene", meshes);
+  }
+  ScenePointer scene = std::make_shared<const planner::Scene>(std::move(read));
   scenes_.keep({text, folder}, std::move(files), scene);
   return scene;
 }

@@ -3,6 +3,7 @@
 
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/morphology.h"
+#include "apps/planner/ompl/ompl_planners.h"
 #include "apps/program/expression/expression.h"
 #include "apps/program/expression/functions.h"
 #include "nef/construct/crossings.h"
@@ -20,8 +21,17 @@ Crossings crossings_of(const Json& request) {
   return *rule;
 }
 
-ExpressionCache::Result evaluate_field(const Json& request, const std::string& field, const PanelContext& context,
-                                       bool tiles, Messages& messages) {
+// Those of OMPL: ours are in the list, too.
+std::vector<std::string> planner_names() {
+  std::vector<std::string> names = planner::ompl_planner_names();
+  std::erase(names, "TightPlanner");
+  return names;
+}
+
+}  // namespace
+
+ExpressionCache::Result set_and_shapes_of_field(const Json& request, const std::string& field,
+                                                const PanelContext& context, bool tiles, Messages& messages) {
   ExpressionOptions options;
   Messages told;
   const Crossings crossings = crossings_of(request);
@@ -52,8 +62,6 @@ ExpressionCache::Result evaluate_field(const Json& request, const std::string& f
   }
 }
 
-}  // namespace
-
 std::string text_of(const Json& request, const std::string& member) {
   const auto found = request.find(member);
   if (found == request.end() || !found->is_string()) throw InputError("the request lacks the text '" + member + "'");
@@ -62,12 +70,7 @@ std::string text_of(const Json& request, const std::string& member) {
 
 Polyhedron set_of_field(const Json& request, const std::string& field, const PanelContext& context,
                         Messages& messages) {
-  return *evaluate_field(request, field, context, false, messages).whole;
-}
-
-ExpressionCache::Result set_or_tiles_of_field(const Json& request, const std::string& field,
-                                              const PanelContext& context, Messages& messages) {
-  return evaluate_field(request, field, context, true, messages);
+  return *set_and_shapes_of_field(request, field, context, false, messages).whole;
 }
 
 Json language_json() {
@@ -75,7 +78,7 @@ Json language_json() {
   for (const std::string& name : function_names()) {
     functions.push_back({{"name", name}, {"usage", std::string(find_function(name)->usage)}});
   }
-  return {{"functions", std::move(functions)}, {"formats", file_extensions()}};
+  return {{"functions", std::move(functions)}, {"formats", file_extensions()}, {"planners", planner_names()}};
 }
 
 }  // namespace nef::studio

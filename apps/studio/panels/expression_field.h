@@ -15,12 +15,12 @@ namespace nef::studio {
 /// Throws FieldError.
 Polyhedron set_of_field(const Json& request, const std::string& field, const PanelContext& context, Messages& messages);
 
-/// The same, in tiles where ExpressionCache takes them.
-ExpressionCache::Result set_or_tiles_of_field(const Json& request, const std::string& field,
-                                              const PanelContext& context, Messages& messages);
+/// The same with the shapes that it is made of; the set in tiles, if they are wanted, where ExpressionCache takes them.
+ExpressionCache::Result set_and_shapes_of_field(const Json& request, const std::string& field,
+                                                const PanelContext& context, bool tiles, Messages& messages);
 
 /// The language of expressions for the editor: {"functions": [{"name", "usage"}], "formats": [extensions that are
-/// written]}.
+/// written], "planners": names of OMPL's planners}.
 Json language_json();
 
 }  // namespace nef::studio

@@ -31,6 +31,7 @@ struct PanelContext {
   TilePieces& tiles;
   SilhouetteCache& silhouettes;
   SceneCache& scenes;
+  PieceNumbers& piece_numbers;
   Monitor monitor;
 };
 
@@ -62,17 +63,20 @@ class FieldError : public InputError {
 /// The text of a request's member. Throws InputError if it is not there or no text.
 std::string text_of(const Json& request, const std::string& member);
 
-/// An expression: {"text", "crossings": the rule for meshes, "part": an expression whose box is wanted}. Sets:
-/// "result".
+/// An expression: {"text", "crossings": the rule for meshes, "part": an expression whose box is wanted, "shapes":
+/// whether its shapes are told apart by colour, and what set_questions.h asks}; of these, what is wrong is
+/// "question_error" of the report. Sets: "result", "section".
 PanelResult sets_panel(const Json& request, const PanelContext& context);
-/// Two operands: {"a", "b", "kind", "radius", "splits"}. Sets: "result".
+/// Two operands: {"a", "b", "kind", "radius", "splits", "from": where the tool B begins}. Sets: "result"; of a reach
+/// "positions", "touched", "untouched".
 PanelResult sums_panel(const Json& request, const PanelContext& context);
 /// A scene of a visual hull: {"scene": its file, "off": numbers of views, "threshold", "mask", "simplify", "residuals":
 /// suspects, too, "colors", "overlay": the number of a view}. Sets: "result".
 PanelResult hulls_panel(const Json& request, const PanelContext& context);
-/// A scene of translations: {"scene": what the file says, "folder": where it is, "start", "goal", "moves": translations
-/// by the numbers of obstacles, "free": whether free space is wanted, "dragged": whether any path will do}. Sets:
-/// "robot", and "free space" if it was made.
+/// A scene of the planner: {"scene": what the file says (JSON, or a .cfg file of OMPL.app), "folder": where it is,
+/// "start", "goal": numbers as `planner --start` takes them, "moves": translations by the numbers of obstacles, "free":
+/// whether free space is wanted, "dragged": whether any path will do, "ompl": a planner to run beside ours, "seconds":
+/// its time}. Sets: "robot", and "free space" if it was made.
 PanelResult planner_panel(const Json& request, const PanelContext& context);
 
 }  // namespace nef::studio

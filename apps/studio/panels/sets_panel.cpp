@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <functional>
+
 #include "apps/program/set_info.h"
 #include "apps/studio/panels/expression_field.h"
 #include "apps/studio/panels/panel.h"
+#include "apps/studio/panels/set_questions.h"
+#include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
 
 namespace nef::studio {
@@ -34,12 +38,29 @@ Json box_of_part(const Json& request, const PanelContext& context) {
   }
 }
 
+// Answers a question beside the set. What is wrong with it is reported, and the set is there nevertheless.
+void answer_question(const char* field, const std::function<void()>& answer, PanelResult& result) {
+  const auto report = [&result](const std::string& wrong, const std::string& why) {
+    result.report["question_error"] = {{"field", wrong}, {"error", why}};
+  };
+  try {
+    answer();
+  } catch (const FieldError& error) {
+    report(error.field(), error.what());
+  } catch (const InputError& error) {
+    report(field, error.what());
+  } catch (const UnsupportedError& error) {
+    report(field, error.what());
+  }
+}
+
 }  // namespace
 
 PanelResult sets_panel(const Json& request, const PanelContext& context) {
   const Stopwatch watch;
   Messages notes;
-  const ExpressionCache::Result set = set_or_tiles_of_field(request, "text", context, notes);
+  const bool by_shapes = request.value("shapes", false);
+  const ExpressionCache::Result set = set_and_shapes_of_field(request, "text", context, !by_shapes, notes);
   PanelResult result;
   result.report["op_s"] = watch.seconds();
   result.report["notes"] = notes;
@@ -49,13 +70,24 @@ PanelResult sets_panel(const Json& request, const PanelContext& context) {
     result.report["result"] = info_of_tiles(*set.tiled, drawn);
     result.pieces = std::move(drawn.pieces);
     result.sets.emplace("result", *set.tiled);
-    return result;
+  } else {
+    result.report["result"] = set_info(*set.whole, {}, context.monitor);
+    result.sets.emplace("result", *set.whole);
+    if (by_shapes) {
+      const auto color = [&] { result.layers = layers_by_shapes(*set.whole, set.shapes, context.monitor); };
+      answer_question("shapes", color, result);
+    }
+    if (result.layers.empty()) {
+      view::Layer& layer = result.layers.emplace_back();
+      layer.name = "result";
+      layer.scene = view::build_scene(*set.whole, {}, context.monitor);
+    }
   }
-  result.report["result"] = set_info(*set.whole, {}, context.monitor);
-  view::Layer& layer = result.layers.emplace_back();
-  layer.name = "result";
-  layer.scene = view::build_scene(*set.whole, {}, context.monitor);
-  result.sets.emplace("result", *set.whole);
+  const auto whole = [&] { return set.polyhedron(context.monitor); };
+  answer_question(
+      "section", [&] { answer_section(request, whole, context, result); }, result);
+  answer_question(
+      "distance", [&] { answer_distance(request, context, result); }, result);
   return result;
 }
 

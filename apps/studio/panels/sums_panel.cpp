@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "apps/minkowski/morphology.h"
+#include "apps/program/numbers.h"
 #include "apps/program/reports/exact_json.h"
 #include "apps/program/set_info.h"
 #include "apps/studio/panels/expression_field.h"
@@ -19,12 +20,14 @@ constexpr view::Color kA{86, 143, 196};
 constexpr view::Color kB{230, 120, 20};
 constexpr view::Color kSum{106, 168, 96};
 constexpr view::Color kArrow{200, 30, 110};
+constexpr view::Color kPositions{120, 190, 230};
 
 struct NamedSet {
   std::string name;
   Polyhedron set;
   view::Color color;
   double opacity = 1;
+  bool visible = true;  // at first
 };
 
 std::vector<view::Layer> layers_of_sets(const std::vector<NamedSet>& sets, const Monitor& monitor) {
@@ -40,6 +43,7 @@ std::vector<view::Layer> layers_of_sets(const std::vector<NamedSet>& sets, const
     layer.scene = view::build_scene(named.set, options, monitor);
     layer.color = named.color;
     layer.opacity = named.opacity;
+    layer.visible = named.visible;
   }
   return layers;
 }
@@ -77,8 +81,6 @@ void offset_both(const Polyhedron& a, const Json& request, const Monitor& monito
   result.sets = {{"result", inner}, {"outer", outer}};
 }
 
-view::Point to_point(const Rational3& p) { return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])}; }
-
 // Where the arrow begins: the middle of B's box.
 view::Point middle_of(const Polyhedron& set) {
   const auto box = view::visible_box(std::span(&set, 1));
@@ -97,10 +99,39 @@ void penetrate(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor,
   const Polyhedron moved = transform(b, AffineMap::translate(found.translation), monitor);
   result.layers = layers_of_sets({{"A", a, kA, 0.6}, {"B", b, kB, 0.6}, {"B in contact", moved, kSum, 0.3}}, monitor);
   const view::Point begin = middle_of(b);
-  const view::Point way = to_point(found.translation);
+  const view::Point way = nearest_doubles(found.translation);
   result.layers.back().lines.push_back(
       {"translation", {begin, {begin[0] + way[0], begin[1] + way[1], begin[2] + way[2]}}, kArrow});
   result.sets = {{"result", moved}};
+}
+
+// Where the tool's path to the part begins; nothing if that is outside of everything.
+std::optional<Rational3> from_of(const Json& request) {
+  const std::string text = request.contains("from") ? text_of(request, "from") : "";
+  if (text.find_first_not_of(' ') == std::string::npos) return std::nullopt;
+  try {
+    return parse_triple(text, "x,y,z");
+  } catch (const InputError&) {
+    throw FieldError("from", 0,
+                     "'" + text + "' is not a point such as 5,0,1/2; leave the field empty to begin outside");
+  }
+}
+
+// What B as a tool reaches of the part A.
+void reach(const Polyhedron& part, const Polyhedron& tool, const Json& request, const Monitor& monitor,
+           PanelResult& result) {
+  const Stopwatch watch;
+  const minkowski::Reach found = minkowski::reach(tool, part, from_of(request), {.monitor = monitor});
+  result.report["op_s"] = watch.seconds();
+  for (const auto& [name, set] : {std::pair{"touched", &found.touched}, std::pair{"untouched", &found.untouched}}) {
+    result.report[name] = set->is_empty() ? Json() : Json(set_info(*set, {}, monitor));
+  }
+  result.layers = layers_of_sets({{"touched", found.touched, kSum},
+                                  {"untouched", found.untouched, kB},
+                                  {"tool", tool, kA, 0.6},
+                                  {"positions of the tool", found.positions, kPositions, 0.3, false}},
+                                 monitor);
+  result.sets = {{"positions", found.positions}, {"touched", found.touched}, {"untouched", found.untouched}};
 }
 
 Polyhedron sum_of(const std::string& kind, const Polyhedron& a, const Polyhedron& b, const Monitor& monitor) {
@@ -109,7 +140,7 @@ Polyhedron sum_of(const std::string& kind, const Polyhedron& a, const Polyhedron
   if (kind == "erosion") return minkowski::erode(a, b, options);
   if (kind == "opening") return minkowski::opening(a, b, options);
   if (kind == "closing") return minkowski::closing(a, b, options);
-  throw InputError("'" + kind + "' is none of sum, erosion, opening, closing, offset, penetration");
+  throw InputError("'" + kind + "' is none of sum, erosion, opening, closing, offset, penetration, reach");
 }
 
 }  // namespace
@@ -125,6 +156,8 @@ PanelResult sums_panel(const Json& request, const PanelContext& context) {
     const Polyhedron b = set_of_field(request, "b", context, notes);
     if (kind == "penetration") {
       penetrate(a, b, context.monitor, result);
+    } else if (kind == "reach") {
+      reach(a, b, request, context.monitor, result);
     } else {
       const Stopwatch watch;
       const Polyhedron sum = sum_of(kind, a, b, context.monitor);

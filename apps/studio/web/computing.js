@@ -33,7 +33,7 @@ export class Computing {
     else this.waiting = work;
   }
 
-  // Asks a panel's computation. Returns {report, seconds}, or null if it was cancelled or a newer one has come meanwhile.
+  // Asks a panel's computation. Returns {report, scene, seconds}, or null if it was cancelled or a newer one has come meanwhile.
   // Throws ServerError.
   async run(panel, request) {
     clearTimeout(this.delayed);
@@ -47,7 +47,7 @@ export class Computing {
       const { report, scene } = await computePanel(panel, request);
       if (me !== this.number) return null;
       this.onScene(scene);
-      return { report, seconds: (performance.now() - begin) / 1000 };
+      return { report, scene, seconds: (performance.now() - begin) / 1000 };
     } catch (error) {
       if (error instanceof ServerError) {
         if (error.cancelled || me !== this.number) return null;

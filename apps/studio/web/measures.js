@@ -15,13 +15,15 @@ function measureText(exact, value, error) {
   return error ? `${rounded(value)} \u00b1 ${Number(error).toPrecision(1)}` : String(rounded(value));
 }
 
+export const areaText = (info) => measureText(null, info.area, info.area_error);
+
 export function measureRows(info) {
   const yes = (name) => (info[name] ? name : `not ${name}`);
   const rows = [];
   if (info.volume !== undefined || info.volume_double !== undefined) {
     rows.push(["Volume", measureText(info.volume, info.volume_double, info.volume_error)]);
   }
-  if (info.area !== undefined) rows.push(["Area", measureText(null, info.area, info.area_error)]);
+  if (info.area !== undefined) rows.push(["Area", areaText(info)]);
   const counts = ["vertices", "edges", "facets", "volumes"].filter((name) => info[name] !== undefined);
   if (info.tiles) rows.push(["In tiles", `${info.tiles}, ${info.triangles} triangles`]);
   else rows.push(["Items", counts.map((name) => `${info[name]} ${name}`).join(", ")]);

@@ -14,6 +14,7 @@ import { Viewer } from "../../view/web/viewer.js";
 
 const KEEP_AFTER = 600; // milliseconds after the last change
 const SETS = /\.(nef|nef3|off|obj|stl|ply|glb|3mf)$/i;
+const SCENES = /\.(json|cfg)$/i;
 const EMPTY_SCENE = { title: "", center: [0, 0, 0], layers: [] };
 
 // The ball around what is to be seen; null if that is nothing.
@@ -73,7 +74,7 @@ class StudioPage {
 
   async start() {
     await this.refreshFiles();
-    const scene = this.begin.files.find((name) => name.endsWith(".json"));
+    const scene = this.begin.files.find((name) => SCENES.test(name));
     const sets = this.begin.files.filter((name) => SETS.test(name));
     if (scene) {
       await this.#openScene(scene);
@@ -177,7 +178,7 @@ class StudioPage {
       try {
         const name = await upload(file);
         await this.refreshFiles();
-        if (name.endsWith(".json")) {
+        if (SCENES.test(name)) {
           await this.#openScene(name);
         } else if (SETS.test(name)) {
           if (this.panel !== this.sets) this.choose("sets", false);

@@ -12,7 +12,7 @@ const folder = dirname(fileURLToPath(import.meta.url));
 const read = (path) => readFileSync(path, "utf8");
 
 // Each after those that it uses at its top level.
-const viewer = ["scene_data.js", "vectors.js", "camera_control.js", "materials.js", "layer_view.js", "section.js",
+const viewer = ["scene_data.js", "vectors.js", "camera_control.js", "frame_pacer.js", "materials.js", "layer_view.js", "section.js",
   "picking.js", "sphere_regions.js", "sphere_view.js", "item_text.js", "panel.js", "viewer.js"].map((name) => join(folder, name));
 
 // three ends with one export statement `export{a as B,...};`, which becomes an object.

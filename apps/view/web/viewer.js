@@ -4,6 +4,7 @@
 // studio shows one after the other.
 import * as THREE from "three";
 import { CameraControl } from "./camera_control.js";
+import { FramePacer } from "./frame_pacer.js";
 import { itemText, markBadge, sphereItemText } from "./item_text.js";
 import { LayerView, dotMesh, lineMesh } from "./layer_view.js";
 import { sharedUniforms } from "./materials.js";
@@ -22,11 +23,16 @@ export class Viewer {
   constructor(page) {
     this.canvas = byId("view");
     this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: true, stencil: true });
+    this.sharpness = 1; // the share of the pixels of a side that is drawn
+    this.pacer = new FramePacer(this.renderer.getContext(), (share) => this.#render(share));
     this.#followColorScheme();
     this.camera = new THREE.PerspectiveCamera(32, 1, 0.1, 100);
     this.shared = sharedUniforms();
     this.scene = new THREE.Scene();
     this.views = [];
+    // Views that are no longer seen, until others are drawn: shaders that nothing uses are forgotten, and to compile them again
+    // for each scene takes ten times as long as to draw it.
+    this.retired = [];
     this.selected = null;
     this.onSelect = () => {}; // told of every item that is selected, and of null
     this.details = null; // async (item): {exact, spheres} of its layer, of which only the item's need be there
@@ -52,7 +58,7 @@ export class Viewer {
     for (const view of this.views) {
       if (stays.has(view.layer)) continue;
       this.scene.remove(view.group);
-      view.dispose();
+      this.retired.push(view);
     }
     if (this.page) this.control.shift(this.page.center.map((x, i) => x - page.center[i]));
     this.page = page;
@@ -97,23 +103,31 @@ export class Viewer {
     const { clientWidth, clientHeight } = this.canvas;
     if (!clientWidth || !clientHeight) return;
     this.camera.aspect = clientWidth / clientHeight;
-    this.renderer.setPixelRatio(window.devicePixelRatio);
     this.renderer.setSize(clientWidth, clientHeight, false);
-    this.renderer.getDrawingBufferSize(this.shared.size.value);
-    this.shared.ratio.value = window.devicePixelRatio;
+    this.#sharpen(this.sharpness);
     this.requestDraw();
   }
 
-  requestDraw() {
-    if (this.drawRequested) return;
-    this.drawRequested = true;
-    requestAnimationFrame(() => {
-      this.drawRequested = false;
-      this.draw();
-    });
+  #sharpen(share) {
+    this.sharpness = share;
+    const ratio = window.devicePixelRatio * share;
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.getDrawingBufferSize(this.shared.size.value);
+    this.shared.ratio.value = ratio;
   }
 
+  requestDraw() {
+    this.pacer.request();
+  }
+
+  // Now, in all pixels.
   draw() {
+    this.pacer.drawn();
+    this.#render(1);
+  }
+
+  #render(share) {
+    if (share !== this.sharpness) this.#sharpen(share);
     const distance = this.camera.position.length();
     this.camera.near = Math.max(distance - 1.5 * this.radius, distance * 0.01, this.radius * 0.002);
     this.camera.far = distance + 2 * this.radius;
@@ -121,6 +135,7 @@ export class Viewer {
     this.camera.updateMatrixWorld();
     this.section.update();
     this.renderer.render(this.scene, this.camera);
+    for (const view of this.retired.splice(0)) view.dispose();
   }
 
   // For what is dragged from a pixel, so deep: the plane of the two coordinates that the eye looks across. at(x, y) is the

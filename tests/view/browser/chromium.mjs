@@ -144,8 +144,10 @@ export class Browser {
     await this.frame();
   }
 
-  // A PNG of the page.
+  // A PNG of the page, all of its pixels drawn.
   async screenshot() {
+    await this.evaluate("(async () => { await window.nefViewer?.pacer.shown(); window.nefViewer?.draw(); })()");
+    await this.frame();
     const { data } = await this.send("Page.captureScreenshot", { format: "png" });
     return Buffer.from(data, "base64");
   }

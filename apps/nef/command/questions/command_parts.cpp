@@ -7,8 +7,8 @@
 #include <filesystem>
 
 #include "apps/nef/command/commands.h"
-#include "apps/nef/command/questions/section_drawing.h"
 #include "apps/program/numbers.h"
+#include "apps/view/section_drawing.h"
 #include "nef/base/counted.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
@@ -27,9 +27,9 @@ namespace {
 void write_section(Session& session, const Section& section, const Rational3& normal) {
   const std::string extension = lower_extension(session.output);
   if (extension == "svg") {
-    write_file(session.output, section_svg(section, normal));
+    write_file(session.output, view::section_svg(section, normal));
   } else if (extension == "dxf") {
-    write_file(session.output, section_dxf(section, normal));
+    write_file(session.output, view::section_dxf(section, normal));
   } else {
     session.store(section.set);
     return;
@@ -56,12 +56,12 @@ void run_section(Session& session, const std::string& plane) {
     object["segments"] = cut.segments.size();
     object["points"] = cut.points.size();
     object["unbounded"] = cut.unbounded;
-    object["area"] = section_area(cut);
+    object["area"] = view::section_area(cut);
     return session.print("section", object);
   }
   session.say(counted(cut.polygons.size(), "polygon", "polygons") + ", " +
               counted(cut.segments.size(), "segment", "segments") + ", " +
-              counted(cut.points.size(), "point", "points") + "; area " + Json(section_area(cut)).dump());
+              counted(cut.points.size(), "point", "points") + "; area " + Json(view::section_area(cut)).dump());
 }
 
 std::string left_out_text(std::size_t left_out, std::size_t all) {

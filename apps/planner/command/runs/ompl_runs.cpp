@@ -9,6 +9,7 @@
 #include <ompl/tools/benchmark/Benchmark.h>
 #include <ompl/util/Console.h>
 
+#include <atomic>
 #include <sstream>
 
 #include "apps/planner/command/report.h"
@@ -17,6 +18,7 @@
 #include "apps/planner/path/simple_points.h"
 #include "apps/planner/turning_ompl/turning_planning.h"
 #include "nef/base/error.h"
+#include "nef/base/interruption.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/io/file_bytes.h"
 
@@ -46,6 +48,24 @@ class QuietOmpl {
   ompl::msg::LogLevel level_;
 };
 
+// Lets a planner run until it has a solution, its time is over, or somebody stops it; then Interrupted is thrown.
+template <typename Setup>
+ob::PlannerStatus solve_watched(Setup& setup, double seconds, const Monitor& monitor) {
+  std::atomic<bool> stopped = false;  // planners with several threads ask in each
+  const ob::PlannerTerminationCondition is_stopped([watched = monitor.of_other_thread(), &stopped] {
+    try {
+      watched.check_interruption();
+    } catch (const Interrupted&) {
+      stopped = true;
+    }
+    return stopped.load();
+  });
+  const ob::PlannerStatus status =
+      setup.solve(ob::plannerOrTerminationCondition(ob::timedPlannerTerminationCondition(seconds), is_stopped));
+  monitor.check_interruption();
+  return status;
+}
+
 // The path with rounded way-points.
 ExactPath rounded_path(const FreeSpace& free, ExactPath path, unsigned digits) {
   const CellFilter filter(free);
@@ -68,10 +88,10 @@ void take_path(const Problem& problem, TranslationPlanning& setup, const OmplReq
 
 }  // namespace
 
-OmplOutcome run_ompl(const Problem& problem, const OmplRequest& request) {
+OmplOutcome run_ompl(const Problem& problem, const OmplRequest& request, const Monitor& monitor) {
   const QuietOmpl quiet;
   OmplOutcome outcome;
-  outcome.answer = problem.solve();  // says whether start and goal are free, and the best T and J
+  outcome.answer = problem.solve({}, monitor);  // says whether start and goal are free, and the best T and J
   outcome.answer.path.reset();
   TranslationPlanning setup(problem);
   setup.setPlanner(make_ompl_planner(request.planner, setup.getSpaceInformation()));
@@ -82,7 +102,7 @@ OmplOutcome run_ompl(const Problem& problem, const OmplRequest& request) {
   for (unsigned run = 0; run < request.runs && !invalid; ++run) {
     if (run > 0) setup.clear();  // not before the first: AITstar cannot be cleared before it is set up
     const Stopwatch watch;
-    setup.solve(request.seconds);
+    solve_watched(setup, request.seconds, monitor);
     seconds += watch.seconds();
     proved = proved || setup.getProblemDefinition()->hasSolutionNonExistenceProof();
     take_path(problem, setup, request, outcome);
@@ -111,7 +131,7 @@ OmplOutcome run_ompl(const Problem& problem, const OmplRequest& request) {
   return outcome;
 }
 
-TurningAnswer run_turning_ompl(const Scene& scene, const std::string& planner, double seconds) {
+TurningAnswer run_turning_ompl(const Scene& scene, const std::string& planner, double seconds, const Monitor& monitor) {
   const QuietOmpl quiet;
   TurningAnswer answer;
   TurningPlanning setup(scene);
@@ -119,7 +139,7 @@ TurningAnswer run_turning_ompl(const Scene& scene, const std::string& planner, d
   if (dynamic_cast<const TightPlanner*>(setup.getPlanner().get()) != nullptr) {
     throw InputError("TightPlanner only translates; without --ompl the planner for robots that turn is used");
   }
-  switch (static_cast<ob::PlannerStatus::StatusType>(setup.solve(seconds))) {
+  switch (static_cast<ob::PlannerStatus::StatusType>(solve_watched(setup, seconds, monitor))) {
     case ob::PlannerStatus::INVALID_START:
       answer.status = TurningAnswer::Status::kInvalidStart;
       return answer;

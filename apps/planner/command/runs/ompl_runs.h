@@ -30,12 +30,13 @@ struct OmplOutcome {
   int exit_code = 4;  ///< 0 if a run was solved; 1 if our planner proved infeasibility; 3; 4 no answer in time
 };
 
-/// Runs a planner. Its paths are checked exactly again before they count.
-OmplOutcome run_ompl(const Problem& problem, const OmplRequest& request);
+/// Runs a planner. Its paths are checked exactly again before they count. Throws Interrupted if the monitor stops it.
+OmplOutcome run_ompl(const Problem& problem, const OmplRequest& request, const Monitor& monitor = {});
 
 /// Runs a planner on the question of a scene with a rotation. kUndecided: no answer in time. Its path is checked again;
-/// between two way-points the robot may move and turn at once.
-TurningAnswer run_turning_ompl(const Scene& scene, const std::string& planner, double seconds);
+/// between two way-points the robot may move and turn at once. Throws Interrupted if the monitor stops it.
+TurningAnswer run_turning_ompl(const Scene& scene, const std::string& planner, double seconds,
+                               const Monitor& monitor = {});
 
 /// Writes OMPL's benchmark log (for ompl_benchmark_statistics): our planner and those of --planners. Returns the exit
 /// code: 0, or 3 if start or goal is not free. Throws InputError if one is missing. TightPlanner's runs include the

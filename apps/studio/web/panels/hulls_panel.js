@@ -2,7 +2,7 @@
 //
 // Hulls: a scene of cameras and masks, its views switched on and off.
 import { shellLine, showCommands } from "../commands.js";
-import { approximately } from "../exact.js";
+import { SliderField } from "../fields/slider_field.js";
 import { fillNotes, fillTable, measureRows, secondsText } from "../measures.js";
 import { offerScenes } from "./scene_list.js";
 import { ServerError } from "../server.js";
@@ -20,26 +20,13 @@ export class HullsPanel {
     this.overlay = null; // the number of the view whose image is shown
     byId("hulls-open").addEventListener("click", () => this.openFile(byId("hulls-file").value));
     byId("hulls-compute").addEventListener("click", () => this.compute());
-    byId("hulls-simplify").addEventListener("input", () => {
-      byId("hulls-slider").value = approximately(byId("hulls-simplify").value);
-      this.#edited(200);
-    });
-    byId("hulls-slider").addEventListener("input", () => {
-      byId("hulls-simplify").value = byId("hulls-slider").value;
+    const slid = () => {
       this.changed();
       this.#showCommands();
       this.computing.next(() => this.compute());
-    });
-    byId("hulls-threshold").addEventListener("input", () => {
-      byId("hulls-level").value = approximately(byId("hulls-threshold").value) || 0;
-      this.#edited(300);
-    });
-    byId("hulls-level").addEventListener("input", () => {
-      byId("hulls-threshold").value = byId("hulls-level").value;
-      this.changed();
-      this.#showCommands();
-      this.computing.next(() => this.compute());
-    });
+    };
+    this.simplify = new SliderField("hulls-simplify", "hulls-slider", { typed: () => this.#edited(200), slid });
+    this.threshold = new SliderField("hulls-threshold", "hulls-level", { typed: () => this.#edited(300), slid });
     byId("hulls-mask").addEventListener("input", () => this.#edited(500));
     byId("hulls-colors").addEventListener("change", () => this.#edited());
     byId("hulls-residuals").addEventListener("change", () => this.#edited());
@@ -52,18 +39,16 @@ export class HullsPanel {
   }
 
   get state() {
-    return { scene: this.scene, off: [...this.off].sort((a, b) => a - b), simplify: byId("hulls-simplify").value.trim(),
-      threshold: byId("hulls-threshold").value.trim(), mask: byId("hulls-mask").value.trim(),
+    return { scene: this.scene, off: [...this.off].sort((a, b) => a - b), simplify: this.simplify.value,
+      threshold: this.threshold.value, mask: byId("hulls-mask").value.trim(),
       residuals: byId("hulls-residuals").checked, colors: byId("hulls-colors").value };
   }
 
   set state({ scene = "", off = [], simplify = "1", threshold = "", mask = "", residuals = false, colors = "plain" }) {
     this.scene = scene;
     this.off = new Set(off);
-    byId("hulls-simplify").value = simplify;
-    byId("hulls-slider").value = approximately(simplify);
-    byId("hulls-threshold").value = threshold;
-    byId("hulls-level").value = approximately(threshold) || 0;
+    this.simplify.value = simplify;
+    this.threshold.value = threshold;
     byId("hulls-mask").value = mask;
     byId("hulls-residuals").checked = residuals;
     byId("hulls-colors").value = colors;
@@ -71,7 +56,7 @@ export class HullsPanel {
   }
 
   offerFiles(files) {
-    offerScenes(byId("hulls-file"), byId("hulls-open"), files);
+    offerScenes(byId("hulls-file"), byId("hulls-open"), files, [".json"]);
   }
 
   async openFile(file) {

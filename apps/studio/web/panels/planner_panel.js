@@ -4,6 +4,7 @@
 import { shellLine, showCommands } from "../commands.js";
 import { addDecimals, approximately, decimalNear } from "../exact.js";
 import { fillNotes, fillTable, secondsText } from "../measures.js";
+import { fillOmpl, fillPassages, STATUS_SENTENCES } from "./planner_answer.js";
 import { offerScenes } from "./scene_list.js";
 import { ask, ServerError } from "../server.js";
 import { byId } from "../../../view/web/panel.js";
@@ -22,8 +23,14 @@ const ZERO = ["0", "0", "0"];
 const spelledNumbers = (text) => text.replaceAll(/("(?:[^"\\]|\\.)*")|(-?\d+\.?\d*(?:[eE][+-]?\d+)?)/g,
   (all, quoted, number) => quoted ?? `"${number}"`);
 
+// The numbers of a start or goal in JSON: of a position, and of a turn behind it.
+function numbersOf(end) {
+  if (Array.isArray(end)) return end;
+  return Array.isArray(end?.position) ? [...end.position, ...(Array.isArray(end.quaternion) ? end.quaternion : [])] : [];
+}
+
 export class PlannerPanel {
-  constructor({ computing, exportForm, changed, viewer }) {
+  constructor({ computing, exportForm, changed, viewer, language }) {
     Object.assign(this, { computing, exportForm, changed, viewer });
     this.name = "planner";
     this.sets = [];
@@ -37,7 +44,9 @@ export class PlannerPanel {
       this.#showMove();
       if (byId("planner-drag").checked) this.#edited();
     });
-    for (const id of ["planner-free", "planner-drag"]) byId(id).addEventListener("change", () => this.#edited());
+    for (const point of ["start", "goal"]) byId(`planner-${point}-turn`).addEventListener("input", () => this.#edited());
+    byId("planner-ompl").append(...language.planners.map((name) => new Option(name, name)));
+    for (const id of ["planner-free", "planner-drag", "planner-ompl", "planner-seconds"]) byId(id).addEventListener("change", () => this.#edited());
     byId("planner-compute").addEventListener("click", () => this.compute());
     byId("planner-save").addEventListener("click", () => this.#save());
     this.#setScene({ text: EXAMPLE, file: "", folder: "" });
@@ -73,15 +82,17 @@ export class PlannerPanel {
 
   get state() {
     const { text, file, folder } = this.scene;
-    return { text, file, folder, moves: this.moves, free: byId("planner-free").checked,
-      start: this.#point("start"), goal: this.#point("goal") };
+    return { text, file, folder, moves: this.moves, free: byId("planner-free").checked, ompl: byId("planner-ompl").value,
+      seconds: Number(byId("planner-seconds").value) || 5, start: this.#point("start"), goal: this.#point("goal") };
   }
 
-  set state({ text, file = "", folder = "", moves = {}, free = false, start, goal }) {
+  set state({ text, file = "", folder = "", moves = {}, free = false, ompl = "", seconds = 5, start, goal }) {
     if (typeof text !== "string") return;
     this.#setScene({ text, file, folder });
     this.moves = moves;
     byId("planner-free").checked = free;
+    byId("planner-ompl").value = ompl;
+    byId("planner-seconds").value = seconds;
     if (start) this.#setPoint("start", start);
     if (goal) this.#setPoint("goal", goal);
     this.#showMove();
@@ -90,7 +101,7 @@ export class PlannerPanel {
 
   // Names of files that may be scenes.
   offerFiles(files) {
-    offerScenes(byId("planner-file"), byId("planner-open"), files);
+    offerScenes(byId("planner-file"), byId("planner-open"), files, [".json", ".cfg"]);
   }
 
   async openFile(file) {
@@ -114,23 +125,56 @@ export class PlannerPanel {
     } catch {
       // the server says what is wrong with it
     }
-    this.#setPoint("start", Array.isArray(json.start) ? json.start : ["", "", ""]);
-    this.#setPoint("goal", Array.isArray(json.goal) ? json.goal : ["", "", ""]);
-    const obstacles = Array.isArray(json.obstacles) ? json.obstacles : [];
-    byId("planner-obstacle").replaceChildren(...obstacles.map((shape, i) => new Option(`${i}: ${shape}`.slice(0, 60), i)));
-    this.obstacle = 0;
-    byId("planner-title").textContent = scene.file || "An example; open a scene (.json) of your folder above";
+    this.#setPoint("start", numbersOf(json.start));
+    this.#setPoint("goal", numbersOf(json.goal));
+    this.#showTurns();
+    this.#offerObstacles(Array.isArray(json.obstacles) ? json.obstacles : []);
+    byId("planner-title").textContent = scene.file || "An example; open a scene (.json or .cfg) of your folder above";
     this.#showMove();
     this.#showCommands();
   }
 
+  #offerObstacles(names) {
+    byId("planner-obstacle").replaceChildren(...names.map((name, i) => new Option(`${i}: ${name}`.slice(0, 60), i)));
+    this.obstacle = 0;
+  }
+
+  // A position, and degrees or a quaternion behind it if the robot turns; null if a coordinate is missing.
   #point(name) {
     const numbers = this.fields[name].map(({ value }) => value.trim());
-    return numbers.some((number) => number === "") ? null : numbers;
+    if (numbers.some((number) => number === "")) return null;
+    return [...numbers, ...this.#turn(name)];
+  }
+
+  #turn(name) {
+    return byId(`planner-${name}-turn`).value.split(/[\s,]+/).filter((number) => number !== "");
   }
 
   #setPoint(name, numbers) {
     this.fields[name].forEach((input, i) => (input.value = numbers[i] ?? ""));
+    if (name !== "move") byId(`planner-${name}-turn`).value = numbers.slice(3).join(", ");
+  }
+
+  // The fields of turns are there if the scene has some.
+  #showTurns() {
+    for (const name of ["start", "goal"]) {
+      const field = byId(`planner-${name}-turn`);
+      field.hidden = field.value === "";
+      const what = field.value.includes(",") ? "turn as a quaternion w, x, y, z" : "turn in degrees";
+      field.setAttribute("aria-label", `${name}: ${what}`);
+      field.title = what;
+    }
+  }
+
+  // What the text of the scene does not say in JSON.
+  #takeEnds(report) {
+    for (const name of ["start", "goal"]) {
+      if (report[name] && !this.#point(name)) this.#setPoint(name, report[name]);
+    }
+    if (byId("planner-obstacle").options.length !== report.obstacles.length) this.#offerObstacles(report.obstacles);
+    this.#showTurns();
+    this.#showMove();
+    this.#showCommands();
   }
 
   #showMove() {
@@ -162,10 +206,11 @@ export class PlannerPanel {
   }
 
   async compute(dragged = false) {
-    const { text, folder, start, goal, free } = this.state;
+    const { text, folder, start, goal, free, ompl, seconds } = this.state;
     let done;
     try {
-      done = await this.computing.run(this.name, { scene: text, folder, start, goal, free, moves: this.#movesWanted(), dragged });
+      done = await this.computing.run(this.name,
+        { scene: text, folder, start, goal, free, ompl, seconds, moves: this.#movesWanted(), dragged });
     } catch (error) {
       if (!(error instanceof ServerError)) throw error;
       this.#showError(error.message);
@@ -178,17 +223,15 @@ export class PlannerPanel {
 
   #showAnswer({ report, seconds }) {
     const { answer } = report;
+    if (!this.#point("start") || !this.#point("goal")) this.#takeEnds(report);
     const status = byId("planner-status");
     status.className = `status ${answer.status}`;
-    const sentences = {
-      path: "There is a path.",
-      infeasible: "Proved: there is no path by translation.",
-      invalid_start: `The start is not free: ${answer.collision?.text ?? ""}`,
-      invalid_goal: `The goal is not free: ${answer.collision?.text ?? ""}`,
-      free_space: "Give a start and a goal.",
-    };
-    status.textContent = sentences[answer.status] ?? answer.status;
+    status.textContent = STATUS_SENTENCES[answer.status]?.(answer) ?? answer.status;
     const rows = [];
+    if (answer.motions !== "translation") rows.push(["Motions", answer.motions]);
+    if (answer.waypoints) rows.push(["Way-points", String(answer.waypoints)]);
+    if (answer.cells > 0) rows.push(["Cells of angles", String(answer.cells)]);
+    if (answer.status === "infeasible" && answer.boxes > 0) rows.push(["Proof", `${answer.boxes} boxes of poses`]);
     if (answer.length !== undefined) rows.push(["Length", String(Number(answer.length.toPrecision(8)))]);
     if (answer.proof) rows.push(["Proof", `start is in component ${answer.proof.start_component}, goal in component ${answer.proof.goal_component}`]);
     if (answer.components) {
@@ -197,8 +240,10 @@ export class PlannerPanel {
       const dimensions = tight.map(({ dimension }) => ["points", "lines", "sheets"][dimension]).join(", ");
       rows.push(["Tight passages", tight.length ? `${tight.length}: ${dimensions}` : "none"]);
     }
+    fillOmpl(rows, report);
     rows.push(["Time", `${secondsText(report.op_s)} to compute, ${secondsText(seconds)} until shown`]);
     fillTable(byId("planner-measures"), rows);
+    fillPassages(byId("planner-passages"), answer, this.viewer);
     fillNotes(byId("planner-notes"), report.notes);
     this.sets = answer.components ? ["free space", "robot"] : ["robot"];
     this.exportForm.offer(this.sets);
@@ -209,13 +254,15 @@ export class PlannerPanel {
   }
 
   #showCommands() {
-    const { file, start, goal, free } = this.state;
+    const { file, start, goal, free, ompl, seconds } = this.state;
     const moved = Object.keys(this.#movesThatMove()).length > 0 || !file;
     const scene = moved ? "saved-scene.json" : file;
     const ends = [...(start ? ["--start", start.join(",")] : []), ...(goal ? ["--goal", goal.join(",")] : [])];
-    const python = (point) => (point ? `(${point.map((x) => (/^-?\d+$/.test(x) ? x : JSON.stringify(x))).join(", ")})` : "None");
+    const tuple = (numbers) => `(${numbers.map((x) => (/^-?\d+$/.test(x) ? x : JSON.stringify(x))).join(", ")})`;
+    const python = (point) => (!point ? "None" : point.length < 7 ? tuple(point) : `(${tuple(point.slice(0, 3))}, ${tuple(point.slice(3))})`);
     showCommands(byId("planner-commands"), [
-      ["Command line", shellLine("planner", scene, ...ends, ...(free ? ["--tight"] : []))],
+      ["Command line", [shellLine("planner", scene, ...ends, ...(free ? ["--tight"] : [])),
+        ...(ompl ? [shellLine("planner", scene, ...ends, "--ompl", ompl, "--time", String(seconds))] : [])].join("\n")],
       ["Python", `import nef.planner\nscene = nef.planner.read(${JSON.stringify(scene)})\nplan = scene.plan(${python(start)}, ${python(goal)})`],
     ]);
     byId("planner-unsaved").hidden = !moved;
@@ -225,6 +272,7 @@ export class PlannerPanel {
   async #save() {
     const said = byId("planner-saved");
     try {
+      if (!this.scene.text.trimStart().startsWith("{")) throw new Error("a .cfg scene is not written; its ends are on the command line below");
       const json = JSON.parse(spelledNumbers(this.scene.text));
       for (const [number, move] of Object.entries(this.#movesThatMove())) {
         const shape = json.obstacles[number];
@@ -232,7 +280,8 @@ export class PlannerPanel {
         json.obstacles[number] = `translate(${set}, ${move.join(",")})`;
       }
       const { start, goal, folder } = this.state;
-      Object.assign(json, start && { start }, goal && { goal });
+      const written = (end) => (end.length < 7 ? end : { position: end.slice(0, 3), quaternion: end.slice(3) });
+      Object.assign(json, start && { start: written(start) }, goal && { goal: written(goal) });
       const name = `${folder ? `${folder}/` : ""}${byId("planner-save-name").value}.json`;
       await ask("write", { name, text: `${JSON.stringify(json, null, 2)}\n`, overwrite: byId("planner-overwrite").checked });
       said.className = "";
@@ -267,7 +316,7 @@ export class PlannerPanel {
         moved = true;
         const numbers = before.map((number, i) => (i === plane.axis ? number
           : addDecimals(number, decimalNear(now[i] - begin[i], plane.pixel))));
-        this.#setPoint(field, numbers);
+        this.#setPoint(field, field === "move" ? numbers : [...numbers, ...this.#turn(field)]);
         if (field === "move") this.moves[this.obstacle] = numbers;
         const view = viewer.views.find(({ layer }) => layer.name === name);
         if (view && !view.layer.motion) view.group.position.set(...numbers.map((number, i) => approximately(number) - approximately(before[i])));

@@ -6,6 +6,7 @@ import { ExpressionEditor } from "../editor.js";
 import { fillNotes, fillTable, measureRows, secondsText } from "../measures.js";
 import { ServerError } from "../server.js";
 import { PartMover } from "../parts/part_mover.js";
+import { SetQuestions } from "../parts/set_questions.js";
 import { byId } from "../../../view/web/panel.js";
 
 const SET_EXAMPLES = [
@@ -20,6 +21,7 @@ const SET_EXAMPLES = [
 ];
 const SETS_DELAY = 120; // milliseconds without a key before the text is computed
 const MOST_VERSIONS = 200;
+const MOST_OF_VERSIONS = 1e6; // characters
 
 export class SetsPanel {
   // computing: see there; exportForm: where results go; changed(): the state is to be kept.
@@ -50,6 +52,15 @@ export class SetsPanel {
       },
       onPart: () => computing.next(() => this.compute(false)),
     });
+    this.questions = new SetQuestions({
+      editor: this.editor,
+      onChange: (dragged) => {
+        this.changed();
+        this.#showCommands();
+        if (dragged) computing.next(() => this.compute(false));
+        else computing.soon(() => this.compute(false), SETS_DELAY);
+      },
+    });
     byId("sets-crossings").addEventListener("change", () => {
       this.changed();
       this.#showCommands();
@@ -73,11 +84,16 @@ export class SetsPanel {
   }
 
   get state() {
-    return { text: this.editor.text, live: byId("sets-live").checked, crossings: byId("sets-crossings").value };
+    return { text: this.editor.text, live: byId("sets-live").checked, crossings: byId("sets-crossings").value,
+      questions: this.questions.state, versions: this.versions, version: this.version };
   }
 
-  set state({ text = "", live = true, crossings = "union" }) {
+  set state({ text = "", live = true, crossings = "union", questions = {}, versions = [], version = -1 }) {
     this.editor.text = text;
+    this.versions = Array.isArray(versions) ? versions.filter((one) => typeof one === "string").slice(-MOST_VERSIONS) : [];
+    this.version = Number.isInteger(version) ? Math.min(Math.max(version, -1), this.versions.length - 1) : -1;
+    this.questions.state = questions;
+    this.#showVersion();
     this.mover.forget();
     byId("sets-crossings").value = crossings;
     byId("sets-live").checked = live;
@@ -104,7 +120,8 @@ export class SetsPanel {
     const { text } = this.editor;
     let done;
     try {
-      done = await this.computing.run(this.name, { text, part: this.mover.wanted, crossings: byId("sets-crossings").value });
+      done = await this.computing.run(this.name,
+        { text, part: this.mover.wanted, crossings: byId("sets-crossings").value, ...this.questions.request });
     } catch (error) {
       if (!(error instanceof ServerError)) throw error;
       this.#askAboutCrossings([error.message]);
@@ -113,13 +130,14 @@ export class SetsPanel {
     }
     if (!done) return;
     this.editor.showError(null);
-    const { report, seconds } = done;
+    const { report, scene, seconds } = done;
     fillTable(byId("sets-measures"), [...measureRows(report.result),
       ["Time", `${secondsText(report.op_s)} to compute, ${secondsText(seconds)} until shown`]]);
     fillNotes(byId("sets-notes"), report.notes);
     this.#askAboutCrossings(report.notes);
     this.mover.found(report.part);
-    this.sets = ["result"];
+    this.questions.show(report, scene);
+    this.sets = report.section ? ["result", "section"] : ["result"];
     this.exportForm.offer(this.sets);
     if (remember) this.#remember(text);
   }
@@ -141,9 +159,11 @@ export class SetsPanel {
     if (this.versions[this.version] === text) return;
     this.versions.splice(this.version + 1);
     this.versions.push(text);
-    if (this.versions.length > MOST_VERSIONS) this.versions.shift();
+    const size = () => this.versions.reduce((sum, version) => sum + version.length, 0);
+    while (this.versions.length > MOST_VERSIONS || (this.versions.length > 1 && size() > MOST_OF_VERSIONS)) this.versions.shift();
     this.version = this.versions.length - 1;
     this.#showVersion();
+    this.changed();
   }
 
   #go(step) {
@@ -167,9 +187,10 @@ export class SetsPanel {
   #showCommands() {
     const { text } = this.editor;
     const rule = byId("sets-crossings").value;
+    const { shell, python } = this.questions.commands;
     showCommands(byId("sets-commands"), [
-      ["Command line", shellLine("nef", "eval", text, "-o", "result.nef", ...(rule === "union" ? [] : ["--crossings", rule]))],
-      ["Python", `import nef\nresult = nef.eval(${pythonText(text)}, crossings="${rule}")`],
+      ["Command line", [shellLine("nef", "eval", text, "-o", "result.nef", ...(rule === "union" ? [] : ["--crossings", rule])), ...shell].join("\n")],
+      ["Python", [`import nef\nresult = nef.eval(${pythonText(text)}, crossings="${rule}")`, ...python].join("\n")],
     ]);
   }
 }

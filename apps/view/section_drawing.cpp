@@ -3,7 +3,7 @@
 // Points are projected to two unit vectors across the normal, in doubles: this is output, and nothing is decided by it.
 // Areas are half the length of the vector area of a ring, summed relative to its first corner so that far away sections
 // lose no digits.
-#include "apps/nef/command/questions/section_drawing.h"
+#include "apps/view/section_drawing.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -14,26 +14,28 @@
 
 #include "nef/io/number_text.h"
 
-namespace nef {
+namespace nef::view {
 namespace {
 
 using Eigen::Vector3d;
 using Point2 = std::array<double, 2>;
 
-Vector3d rounded(const Rational3& p) { return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])}; }
+Vector3d nearest_vector(const Rational3& p) {
+  return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])};
+}
 
 // Two unit vectors across the normal, such that the three are right-handed.
 class Frame {
  public:
   explicit Frame(const Rational3& normal) {
-    const Vector3d n = rounded(normal).stableNormalized();
+    const Vector3d n = nearest_vector(normal).stableNormalized();
     const double flat = std::hypot(n[0], n[1]);
     // Looking along z the drawing has x to the right, if from below to the left.
     u_ = flat > 0 ? Vector3d(-n[1] / flat, n[0] / flat, 0) : Vector3d(n[2], 0, 0);
     v_ = n.cross(u_);
   }
   [[nodiscard]] Point2 operator()(const Rational3& p) const {
-    const Vector3d x = rounded(p);
+    const Vector3d x = nearest_vector(p);
     return {x.dot(u_), x.dot(v_)};
   }
 
@@ -44,9 +46,9 @@ class Frame {
 // The length of the vector area.
 double ring_area(std::span<const Rational3> ring) {
   Vector3d sum = Vector3d::Zero();
-  const Vector3d origin = rounded(ring[0]);
+  const Vector3d origin = nearest_vector(ring[0]);
   for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
-    sum += (rounded(ring[i]) - origin).cross(rounded(ring[i + 1]) - origin);
+    sum += (nearest_vector(ring[i]) - origin).cross(nearest_vector(ring[i + 1]) - origin);
   }
   return sum.stableNorm() / 2;
 }
@@ -209,4 +211,4 @@ std::string section_dxf(const Section& section, const Rational3& normal) {
   return dxf.take();
 }
 
-}  // namespace nef
+}  // namespace nef::view

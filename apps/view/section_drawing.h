@@ -7,7 +7,7 @@
 
 #include "nef/parts/section.h"
 
-namespace nef {
+namespace nef::view {
 
 /// The area of the polygons of a section.
 double section_area(const Section& section);
@@ -20,4 +20,4 @@ std::string section_svg(const Section& section, const Rational3& normal);
 /// The same for CAD programs, as ASCII DXF (R12): closed polylines for the rings, lines and points, in layer "section".
 std::string section_dxf(const Section& section, const Rational3& normal);
 
-}  // namespace nef
+}  // namespace nef::view

@@ -221,28 +221,28 @@ def textured_points(glb):
     return places.mean(1), pixels[row, column].astype(float), area
 
 
-def error_of_texture(glb, count, lamp_turns):
-    """Mean difference, up to 255 and weighted by area, between the texture and what the cameras see there, without noise:
-    their mean, weighted by how squarely they look at the point, and the nearest of them; and the share of the hull's area
-    that some camera sees and the duck has there. Where the lamp stands still each camera sees another shade."""
+def errors_of_texture(glb, count, lamp_turns):
+    """Mean differences, up to 255 and weighted by area, between the texture and what the cameras see there, without noise:
+    their mean, weighted by how squarely they look at the point, their median in each channel, and the nearest of them; and
+    the share of the hull's area that some camera sees and the duck has there. Where the lamp stands still each camera sees
+    another shade."""
     position, colour, area = textured_points(glb)
-    total, weight = numpy.zeros(position.shape), numpy.zeros(len(position))
-    nearest = numpy.full(len(position), numpy.inf)
-    for rotation, eye in cameras(count):
+    shown, square = numpy.full((count, *position.shape), numpy.nan), numpy.zeros((count, len(position)))
+    for i, (rotation, eye) in enumerate(cameras(count)):
         rays = position - eye
         t, which = first_hit(eye, rays)
         seen = numpy.flatnonzero((which >= 0) & (numpy.abs(t - 1) * numpy.linalg.norm(rays, axis=-1) < 1.5))
         there = eye + t[seen, None] * rays[seen]
-        shown, normal = paint_at(there, which[seen], eye, lamp_of(rotation, eye, lamp_turns))
-        square = -(normal * rays[seen]).sum(-1) / numpy.linalg.norm(rays[seen], axis=-1)
-        seen, shown, square = seen[square > .1], 255 * numpy.clip(shown[square > .1], 0, 1), square[square > .1]
-        total[seen] += shown * square[:, None]
-        weight[seen] += square
-        nearest[seen] = numpy.minimum(nearest[seen], numpy.abs(colour[seen] - shown).mean(-1))
-    known = weight > 0
-    off = numpy.abs(colour[known] - total[known] / weight[known, None]).mean(-1)
-    share = area[known].sum()
-    return (off * area[known]).sum() / share, (nearest[known] * area[known]).sum() / share, share / area.sum()
+        paint, normal = paint_at(there, which[seen], eye, lamp_of(rotation, eye, lamp_turns))
+        cosine = -(normal * rays[seen]).sum(-1) / numpy.linalg.norm(rays[seen], axis=-1)
+        near = cosine > .1
+        shown[i, seen[near]], square[i, seen[near]] = 255 * numpy.clip(paint[near], 0, 1), cosine[near]
+    known = square.sum(0) > 0
+    shown, square, colour, area = shown[:, known], square[:, known], colour[known], area[known] / area.sum()
+    mean = numpy.nansum(shown * square[..., None], 0) / square.sum(0)[:, None]
+    each = [numpy.abs(colour - mean).mean(-1), numpy.abs(colour - numpy.nanmedian(shown, 0)).mean(-1),
+            numpy.nanmin(numpy.abs(colour - shown).mean(-1), 0)]
+    return [(off * area).sum() / area.sum() for off in each], area.sum()
 
 
 def run(*words):
@@ -324,9 +324,9 @@ def main():
         angles, shifts = errors_of_cameras(folder / "scene.json", arguments.views)
         print(f"cameras are off by {angles.mean():.3f} degrees, at most {angles.max():.3f}, and by {shifts.mean():.2f} mm, at "
               f"most {shifts.max():.2f}")
-        off, nearest, share = error_of_texture(folder / "duck.glb", arguments.views, arguments.lamp_turns)
-        print(f"the texture is off by {off:.1f} of 255 from the mean of what cameras see, by {nearest:.1f} from the nearest of "
-              f"them, over the {100 * share:.0f} % of the hull where the duck is seen")
+        (mean, median, nearest), share = errors_of_texture(folder / "duck.glb", arguments.views, arguments.lamp_turns)
+        print(f"the texture is off by {mean:.1f} of 255 from the mean of what cameras see, by {median:.1f} from the median, and "
+              f"by {nearest:.1f} from the nearest of them, over the {100 * share:.0f} % of the hull where the duck is seen")
         pictures = folder / "photographs"
         write_png(arguments.out / "photographs.png", beside([pictures / f"duck_{i:02}.png" for i in (0, 5, 11)])[::2, ::2])
         write_png(arguments.out / "photographs_masks.png", read_png(folder / "masks/overview/masks.png")[:480])

@@ -2,6 +2,7 @@
 #include "apps/visual_hull/texture/hull_texture.h"
 
 #include "apps/visual_hull/color/photo_view.h"
+#include "apps/visual_hull/texture/blending.h"
 #include "apps/visual_hull/texture/charts.h"
 #include "apps/visual_hull/texture/filling.h"
 #include "apps/visual_hull/texture/levelling.h"
@@ -36,10 +37,11 @@ HullTexture hull_texture(const nef::Mesh& mesh, const std::vector<ViewResult>& v
   Atlas atlas = make_charts(surface, choose_views(surface, qualities), seeing, origin);
   pack(atlas, kLargestImage);
   Texels texels(atlas);
-  sample_views({mesh, surface, seeing, origin}, atlas, qualities, texels, monitor);
+  const MeanColors means = sample_views({mesh, surface, seeing, origin}, atlas, qualities, texels, monitor);
   HullTexture result;
   result.charts = atlas.charts.size();
   result.unseen = unseen_share(texels);
+  blend_views(atlas, means, texels, monitor);
   level_seams(surface, atlas, texels);
   fill_unseen(mesh, surface, atlas, texels);
   result.image = padded_image(texels);

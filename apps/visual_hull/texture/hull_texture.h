@@ -24,10 +24,11 @@ struct HullTexture {
 
 /// Makes the texture of a mesh of triangles that is closed and near the hull: the hull itself, or a decimated one. Each
 /// triangle takes the view that shows it best (resolution and angle; what is visible is decided by maps of depth, see
-/// PhotoView), neighbours preferably the same one; seams between views are levelled, and what no view sees gets the
-/// colours of its neighbours. In doubles, for display; the result does not depend on the number of threads. Throws
-/// InputError if no view has an image, one can not be read or is a parallel projection, or faces are not triangles.
-/// O(views (vertices + pixels + pixels of triangles)), and a sparse system of equations for the seams.
+/// PhotoView), neighbours preferably the same one. What is smooth is the mean over all views that see it, seams between
+/// views are levelled, and what no view sees gets the colours of its neighbours. In doubles, for display; the result
+/// does not depend on the number of threads. Throws InputError if no view has an image, one can not be read or is a
+/// parallel projection, or faces are not triangles. O(views (vertices + pixels + pixels of triangles)), and a sparse
+/// system of equations for the seams.
 HullTexture hull_texture(const nef::Mesh& mesh, const std::vector<ViewResult>& views, PixelOrigin origin,
                          const nef::Monitor& monitor);
 

@@ -11,8 +11,8 @@
 namespace nef::visual_hull {
 namespace {
 
-constexpr double kSmooth = 0.05;   // weight of differences between neighbours in a chart, for each triangle
-constexpr double kAnchor = 0.001;  // weight of the offsets themselves
+constexpr double kSmooth = 0.05;  // weight of differences between neighbours in a chart, for each triangle
+constexpr double kAnchor = 0.05;  // weight of the offsets themselves, for each texel
 
 class Levelling {
  public:
@@ -29,9 +29,10 @@ class Levelling {
     }
     if (!any_seam_) return;
     for (std::uint32_t t = 0; t < surface_.size(); ++t) {
-      if (in_view(t)) add_smooth(t);
+      if (!in_view(t)) continue;
+      add_smooth(t);
+      add_anchor(t);
     }
-    for (Eigen::Index i = 0; i < count_; ++i) entries_.emplace_back(i, i, kAnchor);
     Eigen::SparseMatrix<double> matrix(count_, count_);
     matrix.setFromTriplets(entries_.begin(), entries_.end());
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
@@ -81,6 +82,13 @@ class Levelling {
 
   void add_smooth(std::uint32_t t) {
     for (std::size_t i = 0; i < 3; ++i) add_row<2>({unknown_[t][i], unknown_[t][(i + 1) % 3]}, {1, -1}, {}, kSmooth);
+  }
+
+  // Colours are right on the average already (blend_views).
+  void add_anchor(std::uint32_t t) {
+    constexpr double kLeast = 0.02;  // texels: triangles without area have an anchor, too
+    const double texels = std::abs(doubled_area(atlas_.places[t])) / 6 + kLeast;
+    for (std::size_t i = 0; i < 3; ++i) add_row<1>({unknown_[t][i]}, {1}, {}, kAnchor * texels);
   }
 
   void add_seam(const Surface::Side& side) {

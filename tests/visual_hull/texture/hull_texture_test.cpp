@@ -3,8 +3,12 @@
 // Textures of rendered things whose colours are known everywhere.
 #include "apps/visual_hull/texture/hull_texture.h"
 
+#include <cmath>
+#include <optional>
+
 #include "nef/base/error.h"
 #include "nef/export/to_mesh.h"
+#include "nef/geometry/vectors.h"
 #include "tests/visual_hull/helpers.h"
 #include "tests/visual_hull/texture/painted.h"
 
@@ -104,6 +108,75 @@ TEST_CASE("Photographs of different exposures are levelled") {
   double unseen = 1;
   const auto exposure = [](std::size_t view) { return view % 2 == 0 ? 0.9 : 1.1; };
   CHECK(error_of_ellipsoid(kSmall, exposure, unseen) < 4);
+}
+
+// An ellipsoid in one colour, lit by a lamp that goes with the camera, to its right, and with a highlight there.
+struct LitEllipsoid {
+  Vec radii;
+
+  [[nodiscard]] Vec normal(const Vec& p) const {
+    Vec n{};
+    for (std::size_t k = 0; k < 3; ++k) n[k] = p[k] / (radii[k] * radii[k]);
+    const double length = std::hypot(n[0], n[1], n[2]);
+    for (double& x : n) x /= length;
+    return n;
+  }
+
+  [[nodiscard]] double brightness(const Vec& p, const Vec& eye) const {
+    const double across = std::hypot(eye[0], eye[1]);
+    const Vec lamp{eye[0] - 6 * eye[1] / across, eye[1] + 6 * eye[0] / across, eye[2]};
+    Vec middle{};
+    for (std::size_t k = 0; k < 3; ++k) middle[k] = lamp[k] + eye[k] - 2 * p[k];  // about half of the way to both
+    const Vec n = normal(p);
+    const auto cosine = [&](const Vec& to) { return std::max(0.0, nef::dot(n, to) / std::hypot(to[0], to[1], to[2])); };
+    return 60 + 110 * cosine(nef::minus(lamp, p)) + 80 * std::pow(cosine(middle), 60);
+  }
+
+  [[nodiscard]] testing::Tracer tracer() const {
+    const testing::Tracer place = testing::ellipsoid(radii);
+    return [*this, place](const Vec& from, const Vec& direction) -> testing::Hit {
+      const double at = place(from, direction).first;
+      if (!std::isfinite(at)) return {at, {}};
+      Vec p{};
+      for (std::size_t k = 0; k < 3; ++k) p[k] = from[k] + at * direction[k];
+      const auto level = static_cast<std::uint8_t>(std::lround(brightness(p, from)));
+      return {at, {level, level, level}};
+    };
+  }
+
+  /// The mean of what the cameras see, weighted by the cosine of the angle at which they do; nothing if none does.
+  [[nodiscard]] std::optional<double> mean(const Rig& rig, const Vec& p) const {
+    double sum = 0;
+    double weights = 0;
+    for (std::size_t view = 0; view < rig.views; ++view) {
+      const Vec ray = nef::minus(rig.position(view), p);
+      const double cosine = nef::dot(normal(p), ray) / std::hypot(ray[0], ray[1], ray[2]);
+      if (cosine < 0.05) continue;  // of a convex thing all else is seen
+      sum += cosine * brightness(p, rig.position(view));
+      weights += cosine;
+    }
+    if (weights == 0) return std::nullopt;
+    return sum / weights;
+  }
+};
+
+TEST_CASE("Shades and highlights of a lamp that goes with the camera are averaged over the views") {
+  const testing::Scratch scratch;
+  const LitEllipsoid thing{{1.3, 0.9, 1.1}};
+  const Result result = hull_of(testing::render(thing.tracer(), kSmall, scratch));
+  const nef::Mesh mesh = nef::to_mesh(result.hull).mesh;
+  const HullTexture texture = hull_texture(mesh, result.views, result.origin, {});
+  double sum = 0;
+  std::size_t count = 0;
+  for_points(mesh, texture, [&](const Vec& place, const Vec& color) {
+    const double reach = std::hypot(place[0] / thing.radii[0], place[1] / thing.radii[1], place[2] / thing.radii[2]);
+    const std::optional<double> truth = thing.mean(kSmall, {place[0] / reach, place[1] / reach, place[2] / reach});
+    if (!truth) return;
+    sum += std::abs(color[0] - *truth);
+    ++count;
+  });
+  REQUIRE(count > 1000);
+  CHECK(sum / static_cast<double>(count) < 10);  // 27 if each chart keeps the shades of its view
 }
 
 // Both triangles of each cell of a grid on each side of a box, and their colours.

@@ -54,8 +54,8 @@ def main() -> int:
         results.append(os.path.join(work, "visual_" + os.path.basename(name) + ".nef"))
         run(programs, "visual_hull", os.path.join(data, "visual_hull", name), "--simplify", "1", "-o", results[-1], "-q")
     refused = repaired = 0
-    for result in results:
-        for name in FORMATS:
+    for index, result in enumerate(results):
+        for name in FORMATS[index % 2 :: 2]:  # every other format, in turn
             path = os.path.join(work, name)
             binary = ["--binary"] if name.startswith("binary") else []
             report = json.loads(run(programs, "nef", "convert", result, "-o", path, "--json", *binary))
@@ -65,7 +65,7 @@ def main() -> int:
             if done.returncode != 0:
                 refused += 1
                 print(f"{os.path.basename(result)} as {name}: {done.stdout}{report.get('messages')}")
-    print(f"{len(results)} sets in {len(FORMATS)} formats: {repaired} repaired, {refused} refused")
+    print(f"{len(results)} sets, each in half of {len(FORMATS)} formats: {repaired} repaired, {refused} refused")
     return 1 if refused else 0
 
 

@@ -146,10 +146,12 @@ TEST_CASE("planner at any magnitude: poses and motions that turn about an axis",
   }
   CHECK(count > 2);
   CHECK(count < 11);
+  std::size_t first = 0;
   for (const long exponent : kFewExponents) {
     const Rational factor = power_of_two(exponent);
     const TurningCollision large(scaled(scene, factor), axis);
-    for (std::size_t i = 0; i < cases.size(); i += 5 / nef::test::fewer(5)) {
+    first = 1 - first;  // every other case each time
+    for (std::size_t i = first; i < cases.size(); i += 2 * (5 / nef::test::fewer(5))) {
       INFO("case " << i << " times 2^" << exponent);
       const Pose from{scaled(cases[i].from.position, factor), cases[i].from.turn};
       const Pose to{scaled(cases[i].to.position, factor), cases[i].to.turn};

@@ -77,7 +77,7 @@ TEST_CASE("tiles small enough to split and join under way", "[threads]") {
 
 TEST_CASE("a tile that nobody has cut is cut where a step touches it") {
   std::vector<Polyhedron> boxes;
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 10; ++i) {
     const Rational x = 20 + 3 * (i % 5);
     boxes.push_back(
         make_box({x, 3 * (i / 5 % 5) - 5, 3 * (i / 25) - 1}, {x + 2, 3 * (i / 5 % 5) - 3, 3 * (i / 25) + 1}));

@@ -97,7 +97,7 @@ RationalBounds product_of(const RationalBounds& x, const RationalBounds& y) {
 
 bool has_zero(const RationalBounds& b) { return b[0] <= 0 && b[1] >= 0; }
 
-// RationalBounds of still + z along for the first `count` values.
+// Bounds of still + z along for the first `count` values.
 RationalBounds bounds_of(const Form& still, const Form& along, const RationalBounds& z, std::size_t count) {
   Form low;
   Form high;

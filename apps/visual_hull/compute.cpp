@@ -21,6 +21,7 @@
 #include "apps/visual_hull/silhouette/opacity.h"
 #include "apps/visual_hull/stream.h"
 #include "apps/visual_hull/verify/empty_hull.h"
+#include "apps/visual_hull/viewing_edges/background_view.h"
 #include "apps/visual_hull/viewing_edges/direct_hull.h"
 #include "apps/visual_hull/visual_hull.h"
 #include "nef/base/error.h"
@@ -358,23 +359,26 @@ bool box_cuts(const Room& room) {
   return cuts;
 }
 
-/// The hull vertex by vertex, where the views allow that and it is worth it. A box that cuts it and views that keep
-/// what they do not see come afterwards, as operands of Booleans.
-std::optional<nef::Polyhedron> direct(const Run& run, Views& views, const Place& place, const Room& room,
+/// The hull vertex by vertex, where the views allow that and it is worth it. A box that cuts it comes afterwards, as an
+/// operand of a Boolean.
+std::optional<nef::Polyhedron> direct(const Run& run, const Views& views, const Place& place, const Room& room,
                                       const nef::Monitor& monitor) {
   if (!room.enclosing) return std::nullopt;
   if (run.options.way == Way::kBest && !worth_direct(views)) return std::nullopt;
   std::vector<DirectView> inputs;
+  std::vector<Silhouette> kept(views.size());  // of views that keep what they do not see
   for (std::size_t i = 0; i < views.size(); ++i) {
-    if (!views[i].silhouette.background) inputs.push_back({&place.cameras[i], &views[i].silhouette.region});
+    const ViewSilhouette& seen = views[i].silhouette;
+    inputs.push_back({&place.cameras[i], &seen.region});
+    if (!seen.background) continue;
+    std::optional<Silhouette> region = beside_background(place.cameras[i], seen.region, *room.enclosing, monitor);
+    if (!region) return std::nullopt;
+    kept[i] = *std::move(region);
+    inputs[i].silhouette = &kept[i];
   }
   run.tell(Phase::kIntersection, "edges", 0, 1);
   std::optional<nef::Polyhedron> hull = direct_hull(inputs, *room.enclosing, monitor);
   if (!hull) return std::nullopt;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    if (!views[i].silhouette.background) continue;
-    hull = nef::intersect(*hull, part_of(views[i], place.cameras[i], room, monitor).solid, monitor);
-  }
   if (box_cuts(room)) hull = nef::intersect(*hull, nef::make_box(room.box.low, room.box.high, monitor), monitor);
   if (nef::counts(*hull).volumes < 2) return std::nullopt;  // empty or flat: the general way finds out why
   return hull;
@@ -479,9 +483,9 @@ FoundHull hull_in_room(const Run& run, const Place& place, const Room& room, Vie
   if (made) return {*std::move(made), true, std::nullopt};
   if (run.options.way == Way::kDirect) {
     throw nef::InputError(
-        "--way direct does not work for these views (fewer than three that are not cut by the frame, views that do not "
-        "bound the hull, a camera too close to it, or too many coincidences that doubles do not decide); use --way "
-        "cones");
+        "--way direct does not work for these views (fewer than three, views that do not bound the hull without those "
+        "that the frame cuts, a camera too close to it, or too many coincidences that doubles do not decide); use "
+        "--way cones");
   }
   return hull_of_cones(run, place, room, views, phases, monitor);
 }

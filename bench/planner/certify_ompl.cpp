@@ -21,17 +21,16 @@
 #include "bench/planner/fcl_bodies.h"
 #endif
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstdlib>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "apps/planner/ompl/ompl_planners.h"
+#include "apps/planner/ompl/position_bounds.h"
 #include "apps/planner/rigid/certified_path.h"
 #include "apps/planner/rigid_ompl/rigid_validity.h"
+#include "apps/planner/rigid_ompl/se3_planning.h"
 #include "nef/base/error.h"
 #include "nef/base/timing/stopwatch.h"
 
@@ -127,40 +126,9 @@ void round_box(Scene& scene) {
   }
 }
 
-// The scene's box; without one, around the obstacles, start and goal.
-ob::RealVectorBounds bounds_of(const Scene& scene, const MotionChecker& checker) {
-  Vector3d low = Vector3d::Constant(HUGE_VAL);
-  Vector3d high = -low;
-  for (const RigidBody::Piece& piece : checker.obstacles().pieces()) {
-    for (const Vector3d& p : piece.points) {
-      low = low.cwiseMin(p);
-      high = high.cwiseMax(p);
-    }
-  }
-  ob::RealVectorBounds bounds(3);
-  for (unsigned i = 0; i < 3; ++i) {
-    if (scene.box) {
-      bounds.setLow(i, nearest_double((*scene.box)[0][i]));
-      bounds.setHigh(i, nearest_double((*scene.box)[1][i]));
-      continue;
-    }
-    const std::array ends{nearest_double((*scene.start)[i]), nearest_double((*scene.goal)[i])};
-    const double margin = (high[i] - low[i]) / 10;
-    bounds.setLow(i, std::min({low[i], ends[0], ends[1]}) - margin);
-    bounds.setHigh(i, std::max({high[i], ends[0], ends[1]}) + margin);
-  }
-  return bounds;
-}
-
-ob::ScopedState<ob::SE3StateSpace> state_of(const ob::StateSpacePtr& space, const Rational3& position,
-                                            const Quaternion& quaternion) {
-  ob::ScopedState<ob::SE3StateSpace> state(space);
-  state->setXYZ(nearest_double(position[0]), nearest_double(position[1]), nearest_double(position[2]));
-  ob::SO3StateSpace::StateType& q = state->rotation();
-  q.w = nearest_double(quaternion[0]);
-  q.x = nearest_double(quaternion[1]);
-  q.y = nearest_double(quaternion[2]);
-  q.z = nearest_double(quaternion[3]);
+ob::ScopedState<> state_of(const ob::StateSpacePtr& space, const RigidPose& pose) {
+  ob::ScopedState<> state(space);
+  set_pose(pose, state.get());
   return state;
 }
 
@@ -203,14 +171,14 @@ void plan(const Scene& scene, const Checker& checker, const Request& request, co
   const std::string kind = check.substr(0, check.find(':'));
   for (unsigned run = 0; run < request.runs; ++run) {
     const auto space = std::make_shared<ob::SE3StateSpace>();
-    space->setBounds(bounds_of(scene, *checker));
+    space->setBounds(position_bounds(scene));
     og::SimpleSetup setup(space);
     if (!set_up_checks(setup, checker, kind)) return;
     if (kind.size() < check.size()) {
       setup.getSpaceInformation()->setStateValidityCheckingResolution(std::atof(check.c_str() + kind.size() + 1));
     }
-    setup.setStartAndGoalStates(state_of(space, *scene.start, (*scene.quaternions)[0]),
-                                state_of(space, *scene.goal, (*scene.quaternions)[1]));
+    setup.setStartAndGoalStates(state_of(space, {*scene.start, (*scene.quaternions)[0]}),
+                                state_of(space, {*scene.goal, (*scene.quaternions)[1]}));
     setup.setPlanner(make_ompl_planner(request.planner, setup.getSpaceInformation()));
     setup.setup();
     json told{{"scene", scene.name}, {"planner", request.planner}, {"check", check}, {"run", run}};

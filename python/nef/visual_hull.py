@@ -131,6 +131,16 @@ def _opacity(mask, soft):
     return mask.astype(numpy.uint8)
 
 
+def _opacities(masks, names, soft):
+    """The bytes of all masks, which must show something."""
+    opacities = [_opacity(mask, soft) for mask in masks]
+    for name, opacity in zip(names, opacities):
+        if not (opacity >= 128).any():
+            why = "no number of its mask is 128 or more" if soft else "its mask is 0 everywhere"
+            raise InputError(f"{name}: the silhouette is empty: {why}", view=name)
+    return opacities
+
+
 def _told(error, names):
     """The error with `view` set to the view that its text names."""
     text = str(error).replace("view view ", "view ")  # "view 0" is a name
@@ -185,8 +195,9 @@ def compute(masks: Sequence[Any], cameras: Sequence[Any], names: Optional[Sequen
     options = _options(box=box, tolerance=tolerance, outer=outer, soft=soft, min_area=min_area, half_pixels=half_pixels,
                        unknown_beyond=unknown_beyond, suspects=suspects, drop_suspects=drop_suspects, at_least=at_least,
                        largest=largest, verify=verify, threads=threads)
+    opacities = _opacities(masks, names, soft)
     with tempfile.TemporaryDirectory() as folder:
-        images = _written([_opacity(mask, soft) for mask in masks], photographs, folder)
+        images = _written(opacities, photographs, folder)
         try:
             hull = _hull(_visual_hull.from_views(names, images, cameras, lenses, folder, options, photographs is not None,
                                                  progress))
@@ -305,13 +316,14 @@ def refine(masks: Sequence[Any], cameras: Optional[Sequence[Any]] = None, names:
 
     Raises InputError for an empty mask, a matrix that is not a camera, or too few views.
     """
-    masks = [_opacity(_mask(mask), soft) for mask in masks]
+    masks = [_mask(mask) for mask in masks]
     names = [f"view {i}" for i in range(len(masks))] if names is None else [str(name) for name in names]
     given = None if cameras is None else [numpy.asarray(camera).tolist() for camera in cameras]
     if len(masks) != len(names) or (given is not None and len(given) != len(masks)):
         raise InputError(f"{len(masks)} masks need as many cameras and names")
+    opacities = _opacities(masks, names, soft)
     try:
-        answer = _visual_hull.refine(names, masks, given, half_pixels, soft, camera_error, threads)
+        answer = _visual_hull.refine(names, opacities, given, half_pixels, soft, camera_error, threads)
     except InputError as error:
         raise _told(error, names) from None
     found = _refinement(answer)

@@ -291,8 +291,12 @@ def test_visual_hull(needs):
         visual_hull.compute(["a.png"], cameras)
     with pytest.raises(TypeError, match="photographs must be a list of files"):
         visual_hull.masks("photographs")
-    with pytest.raises(nef.InputError, match="^view 1: the silhouette is empty"):
+    with pytest.raises(nef.InputError, match="^view 1: the silhouette is empty: its mask is 0 everywhere$"):
         visual_hull.compute([mask, 0 * mask, mask], cameras, box=((-2, -2, -2), (2, 2, 2)))
+    with pytest.raises(nef.InputError, match="^view 0: the silhouette is empty: no number of its mask is 128 or more$"):
+        visual_hull.compute([mask // 4], cameras[:1], soft=True)
+    with pytest.raises(nef.InputError, match="^view 2: the silhouette is empty: its mask is 0 everywhere$"):
+        visual_hull.refine([mask, mask, 0 * mask], cameras)
 
 
 def test_soft_masks(needs, tmp_path):

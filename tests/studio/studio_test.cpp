@@ -384,12 +384,23 @@ TEST_CASE("Planner: robots that turn") {
   CHECK(answer(studio, "compute", request, 422)["field"] == "goal");
   request["goal"] = nullptr;
   request["dragged"] = false;
+  request["ompl"] = "RRTConnect";
+  request["seconds"] = 60;  // much more than it needs
+  const auto check_ompl = [&] {
+    CHECK(computed.report["ompl"]["name"] == "RRTConnect");
+    CHECK(computed.report["ompl"]["status"] == "path");
+    CHECK(computed.report["ompl"]["waypoints"].get<int>() > 1);
+    CHECK(computed.scene["layers"].back()["name"] == "path of RRTConnect");
+  };
+  computed = compute(studio, request);
+  check_ompl();
   request["scene"] = scene(R"~("box": [[-4,-4,-4], [4,4,4]], "rotation": "SO(3)",
     "start": {"position": [0, 0, 0], "quaternion": [1, 0, 0, 0]}, "goal": {"position": [0, 1, 0], "quaternion": [1, 0, 0, 1]})~");
   computed = compute(studio, request);
   CHECK(computed.report["answer"]["status"] == "path");
   CHECK(computed.report["answer"]["motions"] == "rigid");
   CHECK(computed.report["goal"] == Json({"0", "1", "0", "1", "0", "0", "1"}));
+  check_ompl();
   request["moves"] = {{"0", {"-2", "0", "0"}}};
   CHECK(compute(studio, request).report["answer"]["status"] == "invalid_start");
 }

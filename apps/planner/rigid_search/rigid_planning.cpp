@@ -32,15 +32,7 @@ class RigidPlanning {
       : scene_(scene), question_(rigid_question_of(scene)), checker_(checker), limits_(limits), monitor_(monitor) {}
 
   RigidAnswer run() {
-    for (const auto& [pose, status] : {std::pair(&question_.start, RigidAnswer::Status::kInvalidStart),
-                                       std::pair(&question_.goal, RigidAnswer::Status::kInvalidGoal)}) {
-      if (checker_.check(*pose).status == MotionVerdict::Status::kFree) continue;
-      Scene there = scene_;
-      there.robot = transform(scene_.robot, map_of({Rational3{}, pose->quaternion}), monitor_);
-      answer_.collision = find_collision(there, pose->position, monitor_);
-      answer_.status = status;
-      return std::move(answer_);
-    }
+    if (auto invalid = invalid_rigid_end(scene_, checker_, monitor_)) return *std::move(invalid);
     if (is_answer({question_.start, question_.goal})) return std::move(answer_);
     try {
       search();
@@ -143,6 +135,21 @@ RigidLimits RigidLimits::of(std::optional<std::size_t> max_slices, bool time_is_
     limits.max_samples = limits.max_slices = limits.max_boxes = std::numeric_limits<std::uint32_t>::max();
   }
   return limits;
+}
+
+std::optional<RigidAnswer> invalid_rigid_end(const Scene& scene, const MotionChecker& checker, const Monitor& monitor) {
+  const RigidQuestion question = rigid_question_of(scene);
+  for (const auto& [pose, status] : {std::pair(&question.start, RigidAnswer::Status::kInvalidStart),
+                                     std::pair(&question.goal, RigidAnswer::Status::kInvalidGoal)}) {
+    if (checker.check(*pose).status == MotionVerdict::Status::kFree) continue;
+    Scene there = scene;
+    there.robot = transform(scene.robot, map_of({Rational3{}, pose->quaternion}), monitor);
+    RigidAnswer answer;
+    answer.collision = find_collision(there, pose->position, monitor);
+    answer.status = status;
+    return answer;
+  }
+  return std::nullopt;
 }
 
 RigidAnswer find_rigid_path(const Scene& scene, const MotionChecker& checker, const RigidLimits& limits,

@@ -44,6 +44,10 @@ struct RigidAnswer {
   std::size_t boxes = 0;    ///< boxes of poses in the last attempt to prove that there is no path
 };
 
+/// The answer if the start or the goal is not free, else nothing. `checker` must be that of the scene.
+std::optional<RigidAnswer> invalid_rigid_end(const Scene& scene, const MotionChecker& checker,
+                                             const Monitor& monitor = {});
+
 /// Searches in turns by random poses (certified_trees.h), which is quick where there is room, through exact slices
 /// (slice_search.h), which finds narrow places, and for a proof that there is no path (no_rigid_path.h). Every motion
 /// is certified, and checked once more before the path is returned. A search that ends with neither proves nothing: the

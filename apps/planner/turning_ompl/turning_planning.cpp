@@ -2,8 +2,8 @@
 #include "apps/planner/turning_ompl/turning_planning.h"
 
 #include <algorithm>
-#include <cmath>
 
+#include "apps/planner/ompl/position_bounds.h"
 #include "apps/planner/turning/turning_robot.h"
 
 namespace nef::planner {
@@ -11,37 +11,6 @@ namespace nef::planner {
 namespace ob = ompl::base;
 
 namespace {
-
-ob::RealVectorBounds bounds_of(const Scene& scene, const TurningQuestion& question) {
-  Rational3 low = question.start.position;
-  Rational3 high = low;
-  const auto take = [&](const Rational3& point) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      low[k] = std::min(low[k], point[k]);
-      high[k] = std::max(high[k], point[k]);
-    }
-  };
-  double margin = 2 * reach_of(scene.robot) + 1;
-  if (scene.box) {
-    low = (*scene.box)[0];
-    high = (*scene.box)[1];
-    margin = 0;
-  } else {
-    take(question.goal.position);
-    for (const Polyhedron& obstacle : scene.obstacles) {
-      if (const auto box = bounding_box(obstacle)) {
-        for (const Rational3& corner : *box) take(corner);
-      }
-    }
-  }
-  ob::RealVectorBounds bounds(3);
-  for (unsigned k = 0; k < 3; ++k) {
-    // OMPL refuses bounds without extent; the checker knows the box exactly.
-    bounds.setLow(k, std::nextafter(nearest_double(low[k]) - margin, -HUGE_VAL));
-    bounds.setHigh(k, std::nextafter(nearest_double(high[k]) + margin, HUGE_VAL));
-  }
-  return bounds;
-}
 
 // Samples in the box of the scene, exactly: it may be flat, and at coordinates that no double has.
 class BoxSampler : public ob::RealVectorStateSampler {
@@ -78,7 +47,7 @@ std::shared_ptr<TurningSpace> space_for(const Scene& scene) {
     throw InputError(scene.name + ": OMPL's angles are those of one full circle; the range is wider");
   }
   auto space = std::make_shared<TurningSpace>(question.axis, reach_of(scene.robot));
-  space->setBounds(bounds_of(scene, question));
+  space->setBounds(position_bounds(scene));
   if (scene.box) {
     space->as<ExactTranslationSpace>(0)->setStateSamplerAllocator(
         [box = *scene.box](const ob::StateSpace* part) { return std::make_shared<BoxSampler>(part, box); });

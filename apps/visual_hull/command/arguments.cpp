@@ -76,7 +76,10 @@ namespace {
 void add_input_options(CLI::App& app, Arguments& a) {
   app.add_option("SCENE", a.scene, "Cameras, in one of the formats below; with --turntable a folder of images")
       ->required();
-  app.add_flag("--check", a.check, "Report what is understood of the scene, one line per view, and compute nothing");
+  app.add_flag(
+      "--check", a.check,
+      "Report what is understood of the scene, one line per view, and compute no hull; with --mask or --overlay also "
+      "what the silhouettes are like, and --overlay draws them");
   app.add_option("--up", a.up, "The axis of the scene that becomes +z: x, y, z, -x, -y or -z")->type_name("AXIS");
   app.add_option("--matrices", a.matrices,
                  "Which matrices of an OpenCV or MATLAB file are the projections; * matches a number")

@@ -4,6 +4,8 @@
 // for people, notes and the report go through the session, as in all programs.
 #include "apps/visual_hull/command/run.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -58,8 +60,37 @@ void tell_suspects(nef::Session& session, const Result& result) {
   for (const std::string& line : suspects_table(result)) session.say(line);
 }
 
+// What of the image is object, in words.
+std::string silhouette_line(const ViewResult& view) {
+  const ViewSilhouette& s = view.silhouette;
+  std::string line = view.name + ": ";
+  if (s.image_size.empty()) {
+    line += fmt::format("polygons of {} vertices", s.region.vertex_count());
+  } else {
+    double twice = 0;
+    for (const Ring& ring : s.region.rings) twice += twice_area(ring);
+    const double share = twice / 2 / static_cast<double>(s.image_size.area());
+    line += fmt::format("the object is {:.1f} % of the image", 100 * (s.background ? 1 - share : share));
+  }
+  const std::size_t pieces = s.contours - s.holes;
+  if (pieces > 1) line += fmt::format(", {} pieces", pieces);
+  if (s.holes > 0) line += fmt::format(", {} hole{}", s.holes, s.holes == 1 ? "" : "s");
+  if (s.cut_by_frame) line += ", cut by the frame";
+  return line;
+}
+
+// The silhouettes that a hull would be made of, in words and, if asked for, in pictures.
+void show_silhouettes(const Arguments& a, const Scene& scene, const Options& options) {
+  const Result result = silhouettes_of(scene, scene_folder(a.scene), options);
+  a.session.note_all(result.notes);
+  for (const ViewResult& view : result.views) std::cout << silhouette_line(view) << "\n";
+  if (a.overlay.empty()) return;
+  a.session.show_phase("writing " + a.overlay);
+  write_overlays(result, result.origin, a.overlay);
+}
+
 // What is understood, without a hull.
-int check_scene(const Arguments& a, const Scene& scene) {
+int check_scene(const Arguments& a, const Scene& scene, const Options& options) {
   std::vector<fs::path> images;
   std::string missing;
   nef::Messages notes;
@@ -73,10 +104,17 @@ int check_scene(const Arguments& a, const Scene& scene) {
   if (!scene.guessed) {
     for (const std::string& line : view_lines(scene, images)) std::cout << line << "\n";
   }
-  a.session.note_all(notes);
-  if (missing.empty()) return nef::kYes;
-  a.session.complain(missing);
-  return nef::kBad;
+  if (!missing.empty()) {
+    a.session.note_all(notes);
+    a.session.complain(missing);
+    return nef::kBad;
+  }
+  if (a.mask.empty() && a.overlay.empty()) {
+    a.session.note_all(notes);
+  } else {
+    show_silhouettes(a, scene, options);  // with the same notes
+  }
+  return nef::kYes;
 }
 
 // Tells people what has come out; the exit code: kNo if the hull is empty or flat, or --verify failed.
@@ -184,7 +222,7 @@ int run(const Arguments& a) {
   if (!a.check) session.require_output();
   const Options options = to_options(a);
   const Scene scene = scene_of(a);
-  if (a.check) return check_scene(a, scene);
+  if (a.check) return check_scene(a, scene, options);
   Result result = compute(scene, scene_folder(a.scene), options);
   session.note_all(result.notes);
   session.note_all(refinement_lines(result));

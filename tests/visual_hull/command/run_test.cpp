@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The command as a user runs it, on the data that comes with the project.
+#include <fmt/format.h>
+
 #include <catch2/catch.hpp>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -336,6 +338,42 @@ TEST_CASE("A check says what is understood and computes nothing") {
   const Outcome missing = run(lost.string() + " --check");
   CHECK(missing.code == 2);
   CHECK_THAT(missing.output, Contains("there is no image"));
+}
+
+TEST_CASE("A check shows the masks: how they are made, how much is object, and pictures") {
+  const Scratch s;
+  const std::filesystem::path folder = s.folder() / "elk";
+  std::filesystem::copy(data("elk"), folder);
+  const std::string cut = (folder / "elk_07.png").string();
+  const cv::Mat whole = cv::imread(cut, cv::IMREAD_GRAYSCALE);
+  REQUIRE(cv::imwrite(cut, whole.colRange(0, whole.cols / 2)));
+  const std::string scene = (folder / "elk.json").string() + " --check";
+  const std::filesystem::path pictures = s.folder() / "pictures";
+  const Outcome shown = run(scene + " --mask auto --overlay " + pictures.string());
+  INFO(shown.output);
+  CHECK(shown.code == 0);
+  CHECK_THAT(shown.output, Contains("masks: "));
+  const cv::Mat mask = cv::imread((folder / "elk_03.png").string(), cv::IMREAD_GRAYSCALE);
+  const double share = 100.0 * cv::countNonZero(mask > 127) / static_cast<double>(mask.total());
+  CHECK_THAT(shown.output, Contains(fmt::format("elk_03.png: the object is {:.1f} % of the image", share)));
+  const auto line_of = [&](const std::string& name) {
+    const std::size_t at = shown.output.find(name + ": the object");
+    return shown.output.substr(at, shown.output.find('\n', at) - at);
+  };
+  CHECK_THAT(line_of("elk_07.png"), Contains("cut by the frame"));
+  CHECK_THAT(line_of("elk_03.png"), !Contains("cut by the frame"));
+  std::size_t drawn = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(pictures)) {
+    const cv::Mat picture = cv::imread(entry.path().string());
+    cv::Mat red;
+    cv::inRange(picture, cv::Scalar(0, 0, 200), cv::Scalar(120, 120, 255), red);
+    CHECK(cv::countNonZero(red) > 50);  // the outline
+    ++drawn;
+  }
+  CHECK(drawn == 12);
+  // With --border unknown what is left counts all the same.
+  CHECK_THAT(run(scene + " --border unknown --mask auto").output, Contains(line_of("elk_07.png")));
+  CHECK_THAT(run(scene).output, !Contains("of the image"));
 }
 
 TEST_CASE("Suspects are listed in the report, none on a clean set") {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// TranslationPlanning and TurningPlanning give the planner exact validity checks. Whatever OMPL returns is checked once
-// more here, exactly (`describe_path`, or the path's own check for robots that turn), and only counts if that succeeds.
+// TranslationPlanning, TurningPlanning and SE3Planning give the planner exact validity checks. Whatever OMPL returns is
+// checked once more here, exactly (`describe_path`, the path's own check for robots that turn about an axis, `certify`
+// for those that turn freely), and only counts if that succeeds.
 // Of several runs the shortest path is reported. A benchmark adds TightPlanner, which has to build its free space in
 // each run, and columns for T, J and proofs.
 #include "apps/planner/command/runs/ompl_runs.h"
@@ -16,6 +17,7 @@
 #include "apps/planner/ompl/ompl_planners.h"
 #include "apps/planner/ompl/translation_planning.h"
 #include "apps/planner/path/simple_points.h"
+#include "apps/planner/rigid_ompl/se3_planning.h"
 #include "apps/planner/turning_ompl/turning_planning.h"
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
@@ -64,6 +66,14 @@ ob::PlannerStatus solve_watched(Setup& setup, double seconds, const Monitor& mon
       setup.solve(ob::plannerOrTerminationCondition(ob::timedPlannerTerminationCondition(seconds), is_stopped));
   monitor.check_interruption();
   return status;
+}
+
+ob::PlannerPtr planner_for_turning(const std::string& name, const ob::SpaceInformationPtr& si) {
+  ob::PlannerPtr planner = make_ompl_planner(name, si);
+  if (dynamic_cast<const TightPlanner*>(planner.get()) != nullptr) {
+    throw InputError("TightPlanner only translates; without --ompl the planner for robots that turn is used");
+  }
+  return planner;
 }
 
 // The path with rounded way-points.
@@ -135,10 +145,7 @@ TurningAnswer run_turning_ompl(const Scene& scene, const std::string& planner, d
   const QuietOmpl quiet;
   TurningAnswer answer;
   TurningPlanning setup(scene);
-  setup.setPlanner(make_ompl_planner(planner, setup.getSpaceInformation()));
-  if (dynamic_cast<const TightPlanner*>(setup.getPlanner().get()) != nullptr) {
-    throw InputError("TightPlanner only translates; without --ompl the planner for robots that turn is used");
-  }
+  setup.setPlanner(planner_for_turning(planner, setup.getSpaceInformation()));
   switch (static_cast<ob::PlannerStatus::StatusType>(solve_watched(setup, seconds, monitor))) {
     case ob::PlannerStatus::INVALID_START:
       answer.status = TurningAnswer::Status::kInvalidStart;
@@ -162,6 +169,24 @@ TurningAnswer run_turning_ompl(const Scene& scene, const std::string& planner, d
     }
     answer.path.push_back(std::move(pose));
   }
+  return answer;
+}
+
+RigidAnswer run_rigid_ompl(const Scene& scene, const std::shared_ptr<const MotionChecker>& checker,
+                           const std::string& planner, double seconds, const Monitor& monitor) {
+  if (auto invalid = invalid_rigid_end(scene, *checker, monitor)) return *std::move(invalid);
+  const QuietOmpl quiet;
+  SE3Planning setup(scene, checker);
+  setup.setPlanner(planner_for_turning(planner, setup.getSpaceInformation()));
+  solve_watched(setup, seconds, monitor);
+  RigidAnswer answer;
+  if (!setup.haveExactSolutionPath()) return answer;
+  std::vector<RigidPose> path = setup.getSolutionPoses();
+  CertifiedPath certified = certify(*checker, path, MotionTiming::kSlerp, {}, monitor);
+  if (certified.status != MotionVerdict::Status::kFree) return answer;
+  answer.status = RigidAnswer::Status::kPath;
+  answer.path = std::move(path);
+  answer.certified = std::move(certified);
   return answer;
 }
 

@@ -3,6 +3,7 @@
 
 #include "apps/planner/command/findings.h"
 #include "apps/planner/command/report.h"
+#include "apps/planner/command/runs/ompl_runs.h"
 #include "apps/planner/command/runs/runs.h"
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/proofs/proof_file.h"
@@ -66,6 +67,10 @@ void print(const Arguments& a, const RigidAnswer& answer, const Scene& scene) {
       std::cout << " at every orientation, proved with " << counted(answer.boxes, "box", "boxes") << " of poses\n";
       break;
     case RigidAnswer::Status::kUndecided:
+      if (!a.ompl.empty()) {
+        std::cout << ": " << a.ompl << kNoPathInTime << '\n';
+        break;
+      }
       std::cout << ": no path found with " << counted(answer.samples, "sample", "samples") << " and "
                 << counted(answer.slices, "slice", "slices") << ", which proves nothing\n";
       break;
@@ -97,13 +102,16 @@ void write_proof(const Arguments& a, const Scene& scene, const MotionChecker& ch
 
 int run_rigid(const Arguments& a, const Scene& scene) {
   exclude(a, "a robot that turns freely",
-          {"--tight", "--queries", "--ompl", "--benchmark", "--min-dimension", "--clearance", "--raw", "--quick",
-           "--prefer", "--digits", "--speed", "--se3"});
+          {"--tight", "--queries", "--benchmark", "--min-dimension", "--clearance", "--raw", "--quick", "--prefer",
+           "--digits", "--speed", "--se3"});
   require_extensions(a, "for a robot that turns freely", {"json", "txt", "path", "glb", "html"});
   const TimeLimit limit(a.time, a.session.monitor);
-  const MotionChecker checker = MotionChecker::of_scene(scene, a.session.monitor);
+  const auto shared = std::make_shared<const MotionChecker>(MotionChecker::of_scene(scene, a.session.monitor));
+  const MotionChecker& checker = *shared;
   const double setup_s = limit.passed();
-  const RigidAnswer answer = find_rigid_path(scene, checker, limits_of(a), limit.monitor());
+  const RigidAnswer answer =
+      a.ompl.empty() ? find_rigid_path(scene, checker, limits_of(a), limit.monitor())
+                     : run_rigid_ompl(scene, shared, a.ompl, a.time.value_or(kOmplSeconds), a.session.monitor);
   const double op_s = limit.passed() - setup_s;
   write_proof(a, scene, checker, answer);
   const auto text = [&](const std::string&) -> std::optional<std::string> {
@@ -122,7 +130,8 @@ int run_rigid(const Arguments& a, const Scene& scene) {
            [&] { print(a, answer, scene); },
            text,
            layers});
-  return exit_code(answer.status);
+  const bool no_answer = !a.ompl.empty() && answer.status == RigidAnswer::Status::kUndecided;
+  return no_answer ? 4 : exit_code(answer.status);
 }
 
 }  // namespace nef::planner

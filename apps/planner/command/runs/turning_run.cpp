@@ -145,8 +145,7 @@ void print(const Arguments& a, const TurningAnswer& answer, const Scene& scene, 
   }
   if (a.ompl.empty()) std::cout << ", " << counted(answer.cells, "cell", "cells") << " of angles";
   if (answer.status == TurningAnswer::Status::kUndecided && !a.ompl.empty()) {
-    std::cout << ": " << a.ompl
-              << " found no path in time, which proves nothing (without --ompl: a path, or a proof that there is none)";
+    std::cout << ": " << a.ompl << kNoPathInTime;
   } else if (answer.status == TurningAnswer::Status::kUndecided) {
     std::cout << "; open:";
     for (const TurnRange& range : answer.open_ranges) {

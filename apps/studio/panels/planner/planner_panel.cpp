@@ -111,13 +111,15 @@ void draw_scene(std::vector<view::Layer> layers, const PlannerQuestion& question
   if (rest.scene) result.pieces.push_back(std::move(rest));
 }
 
-view::Layer ompl_layer(const std::string& name, const std::vector<Rational3>& points) {
-  view::Layer layer;
-  layer.name = "path of " + name;
+void add_ompl(const PlannerQuestion& question, Json found, const std::vector<Rational3>& path, PanelResult& result) {
+  found["name"] = question.ompl;
+  result.report["ompl"] = std::move(found);
+  if (path.empty()) return;
+  view::Layer& layer = result.layers.emplace_back();
+  layer.name = "path of " + question.ompl;
   layer.color = kOmplPath;
   view::Polyline& line = layer.lines.emplace_back(view::Polyline{layer.name, {}, kOmplPath});
-  for (const Rational3& point : points) line.points.push_back(nearest_doubles(point));
-  return layer;
+  for (const Rational3& point : path) line.points.push_back(nearest_doubles(point));
 }
 
 PanelResult planner_panel(const Json& request, const PanelContext& context) {

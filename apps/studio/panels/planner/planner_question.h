@@ -33,11 +33,11 @@ struct PlannerQuestion {
 /// `planner --json` has it, "ompl". Sets: "free space" if it was made.
 void answer_translations(const PlannerQuestion& question, const Monitor& monitor, PanelResult& result);
 
-/// The same where the robot turns about one axis ("answer": status, motions, cells, waypoints, collision).
+/// The same where the robot turns about one axis ("answer": status, motions, cells, waypoints, collision; "ompl").
 void answer_turning(const PlannerQuestion& question, const Monitor& monitor, PanelResult& result);
 
 /// The same where the robot turns freely: a path whose motions are certified, or a proof ("answer": status, motions,
-/// samples, slices, boxes, waypoints, collision). OMPL's planners are not run.
+/// samples, slices, boxes, waypoints, collision; "ompl").
 void answer_rigid(const PlannerQuestion& question, const Monitor& monitor, PanelResult& result);
 
 /// The scene that `layers` of an answer are made of: without obstacles, which draw_scene adds.
@@ -48,7 +48,8 @@ planner::Scene without_obstacles(const planner::Scene& scene);
 void draw_scene(std::vector<view::Layer> layers, const PlannerQuestion& question, const Monitor& monitor,
                 PanelResult& result);
 
-/// The path of an OMPL planner as a layer.
-view::Layer ompl_layer(const std::string& name, const std::vector<Rational3>& points);
+/// Adds what an OMPL planner has found ("status", "seconds", "length" or "waypoints") to the report, as "ompl" with the
+/// planner's "name", and its path, if there is one, as a layer.
+void add_ompl(const PlannerQuestion& question, Json found, const std::vector<Rational3>& path, PanelResult& result);
 
 }  // namespace nef::studio

@@ -38,18 +38,17 @@ std::optional<planner::Answer> early_answer(const PlannerQuestion& question, con
   return planner::partial_answer(scene, options, monitor);
 }
 
-void add_ompl(const PlannerQuestion& question, const planner::Problem& problem, const Monitor& monitor,
+void ask_ompl(const PlannerQuestion& question, const planner::Problem& problem, const Monitor& monitor,
               PanelResult& result) {
   const planner::OmplOutcome found =
       planner::run_ompl(problem, {.planner = question.ompl, .seconds = question.seconds}, monitor);
-  result.report["ompl"] = {{"name", question.ompl},
-                           {"status", found.solved > 0       ? "path"
-                                      : found.exit_code == 1 ? "infeasible"
-                                                             : "none"},
-                           {"seconds", found.answer.phases.at("ompl")}};
-  if (!found.answer.path) return;
-  result.report["ompl"]["length"] = found.answer.path->length;
-  result.layers.push_back(ompl_layer(question.ompl, found.answer.path->points));
+  Json json{{"status", found.solved > 0       ? "path"
+                       : found.exit_code == 1 ? "infeasible"
+                                              : "none"},
+            {"seconds", found.answer.phases.at("ompl")}};
+  const auto& path = found.answer.path;
+  if (path) json["length"] = path->length;
+  add_ompl(question, std::move(json), path ? path->points : std::vector<Rational3>(), result);
 }
 
 }  // namespace
@@ -73,7 +72,7 @@ void answer_translations(const PlannerQuestion& question, const Monitor& monitor
   result.report["answer"] = planner::answer_report(answer, scene, free);
   draw_scene(planner::view_layers(answer, without_obstacles(scene), free), question, monitor, result);
   if (problem) result.sets.emplace("free space", free->set());
-  if (problem && question.runs_ompl() && !answer.collision) add_ompl(question, *problem, monitor, result);
+  if (problem && question.runs_ompl() && !answer.collision) ask_ompl(question, *problem, monitor, result);
 }
 
 }  // namespace nef::studio

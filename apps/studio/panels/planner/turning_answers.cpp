@@ -33,19 +33,21 @@ void answer_nothing(const PlannerQuestion& question, const char* motions, const 
              result);
 }
 
-void add_ompl_turning(const PlannerQuestion& question, const Monitor& monitor, PanelResult& result) {
+bool has_valid_ends(planner::AnswerStatus status) {
+  return status != planner::AnswerStatus::kInvalidStart && status != planner::AnswerStatus::kInvalidGoal;
+}
+
+// run() asks the planner.
+template <typename Run>
+void ask_ompl(const PlannerQuestion& question, const Run& run, PanelResult& result) {
   const Stopwatch watch;
-  const planner::TurningAnswer found =
-      planner::run_turning_ompl(question.scene, question.ompl, question.seconds, monitor);
+  const auto found = run();
   const bool is_path = found.status == planner::AnswerStatus::kPath;
-  result.report["ompl"] = {{"name", question.ompl},
-                           {"status", is_path ? "path" : "none"},
-                           {"waypoints", found.path.size()},
-                           {"seconds", watch.seconds()}};
-  if (!is_path) return;
   std::vector<Rational3> points;
-  for (const planner::Pose& pose : found.path) points.push_back(pose.position);
-  result.layers.push_back(ompl_layer(question.ompl, points));
+  for (const auto& pose : found.path) points.push_back(pose.position);
+  add_ompl(question,
+           {{"status", is_path ? "path" : "none"}, {"waypoints", points.size()}, {"seconds", watch.seconds()}}, points,
+           result);
 }
 
 }  // namespace
@@ -62,16 +64,17 @@ void answer_turning(const PlannerQuestion& question, const Monitor& monitor, Pan
   result.report["answer"] = answer_json(answer, planner::kTranslationAndTurning, scene);
   result.report["answer"]["cells"] = answer.cells;
   draw_scene(planner::turning_layers(answer, without_obstacles(scene), asked), question, monitor, result);
-  const bool is_valid =
-      answer.status != planner::AnswerStatus::kInvalidStart && answer.status != planner::AnswerStatus::kInvalidGoal;
-  if (question.runs_ompl() && is_valid) add_ompl_turning(question, monitor, result);
+  if (!question.runs_ompl() || !has_valid_ends(answer.status)) return;
+  ask_ompl(
+      question, [&] { return planner::run_turning_ompl(scene, question.ompl, question.seconds, monitor); }, result);
 }
 
 void answer_rigid(const PlannerQuestion& question, const Monitor& monitor, PanelResult& result) {
   const planner::Scene& scene = question.scene;
   if (!question.has_ends()) return answer_nothing(question, planner::kRigid, monitor, result);
   const Stopwatch watch;
-  const planner::MotionChecker checker = planner::MotionChecker::of_scene(scene, monitor);
+  const auto shared = std::make_shared<const planner::MotionChecker>(planner::MotionChecker::of_scene(scene, monitor));
+  const planner::MotionChecker& checker = *shared;
   const planner::RigidLimits limits =
       planner::RigidLimits::of(question.dragged ? std::optional(kSlicesWhileDragged) : std::nullopt, false);
   const planner::RigidAnswer answer = planner::find_rigid_path(scene, checker, limits, monitor);
@@ -87,6 +90,10 @@ void answer_rigid(const PlannerQuestion& question, const Monitor& monitor, Panel
                                                          planner::map_of(ends.goal), false, nullptr)
                                  : planner::certified_layers(answer.certified, answer.path, without, checker),
              question, monitor, result);
+  if (!question.runs_ompl() || !has_valid_ends(answer.status)) return;
+  ask_ompl(
+      question, [&] { return planner::run_rigid_ompl(scene, shared, question.ompl, question.seconds, monitor); },
+      result);
 }
 
 }  // namespace nef::studio

@@ -94,7 +94,7 @@ cv::Mat draw_overlay(const ViewResult& view, const nef::Polyhedron& hull, PixelO
     lines.insert(lines.end(), cycles.begin(), cycles.end());
   }
   cv::polylines(filled, lines, true, cv::Scalar(140, 60, 0), 1, cv::LINE_AA, kShift);
-  mark_residual(filled, covered, view, frame);
+  if (!hull.is_empty()) mark_residual(filled, covered, view, frame);
   cv::addWeighted(canvas, 0.5, filled, 0.5, 0, canvas);
   std::vector<std::vector<cv::Point>> outline;
   for (const Ring& ring : view.silhouette.region.rings) {

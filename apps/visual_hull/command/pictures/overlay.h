@@ -10,7 +10,7 @@ namespace nef::visual_hull {
 
 /// The image of a view with the hull's projection (filled, blue; its edges thin), what the silhouette has beyond it
 /// (the residual, yellow) and the polygon of the silhouette (red) drawn over it. Views without an image get a canvas
-/// around their polygons.
+/// around their polygons. Of an empty hull the polygon alone is drawn.
 cv::Mat draw_overlay(const ViewResult& view, const nef::Polyhedron& hull, PixelOrigin origin);
 
 /// A picture of three channels (blue, green, red) as an image of pages and pictures.

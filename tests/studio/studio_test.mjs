@@ -46,7 +46,9 @@ const hiddenNow = (selector) => `document.querySelector(${JSON.stringify(selecto
 const READY = "window.nefStudio?.ready || /cannot/.test(document.querySelector('#message')?.textContent)";
 const AREA = "#sets-editor textarea";
 
+// The page before stays open: it saves what it has to save before the new one reads the state.
 async function openStudio(browser, address, width = 1280, height = 800) {
+  if (browser.session) await browser.until(`!window.nefStudio?.keeping || ${text("#kept")} !== ""`);
   await browser.open(address, width, height, READY);
   assert.equal(await browser.evaluate(text("#message")), "");
 }
@@ -238,10 +240,12 @@ const tests = {
   async "a click in the view shows what it hits, with its sphere map"(browser) {
     await type(browser, AREA, "interior(box(0,0,0, 1,1,1)) + point(1,0,1)");
     await browser.until(`${measure("sets-measures", "It is")}?.includes("not closed")`);
-    const corner = await browser.evaluate(`(() => {
+    const findCorner = `(() => {
       const { center, layers: [{ vertices: { xyz } }] } = nefViewer.page;
       for (let v = 0; 3 * v < xyz.length; ++v) if ([1, 0, 1].every((x, i) => xyz[3 * v + i] + center[i] === x)) return v;
-    })()`);
+    })()`;
+    await browser.until(`${findCorner} !== undefined`); // measures come before the picture
+    const corner = await browser.evaluate(findCorner);
     const [x, y] = await browser.evaluate(`(() => {
       const [x, y] = nefViewer.picker.project(nefViewer.picker.vertexPoint(nefViewer.views[0], ${corner}));
       const box = nefViewer.canvas.getBoundingClientRect();
@@ -499,6 +503,27 @@ const tests = {
     await picture(browser, "planner_corner");
     const poses = () => browser.evaluate("(({ motion }) => [...motion.times.keys()].length > 1 && motion.turns.length)(nefViewer.page.layers[0])");
     assert.ok((await poses()) > 1, "it turns on its way");
+    // The motion is played.
+    const time = () => browser.evaluate(`Number(document.querySelector("#time-slider").value)`);
+    const place = () => browser.evaluate("nefViewer.views[0].group.position.toArray().join()");
+    const [shareBefore, placeBefore] = [await time(), await place()];
+    await click(browser, "#play");
+    await browser.until(`Number(document.querySelector("#time-slider").value) > ${shareBefore} + 0.05`);
+    assert.notEqual(await place(), placeBefore, "the robot moves while it plays");
+    await click(browser, "#play");
+    const stopped = await time();
+    await new Promise((done) => setTimeout(done, 300));
+    assert.equal(await time(), stopped, "it stands still after that");
+    const ompl = (name) => browser.evaluate(`(() => { const list = document.querySelector("#planner-ompl"); list.value = "${name}"; list.dispatchEvent(new Event("change")); })()`);
+    const omplFinds = async () => {
+      await ompl("RRTConnect");
+      await browser.until(`/^a path, [0-9]+ way-points/.test(${measure("planner-measures", "RRTConnect")} ?? "")`);
+      assert.ok(await browser.evaluate('nefViewer.page.layers.some(({ name }) => name === "path of RRTConnect")'));
+      await ompl("");
+      await browser.until(`${measure("planner-measures", "RRTConnect")} === undefined`);
+    };
+    await type(browser, "#planner-seconds", "60");
+    await omplFinds();
     await type(browser, "#planner-goal-turn", "0");
     await browser.until(`document.querySelector("#planner-status").className === "status invalid_goal"`);
     // The same bar past a wall, which may turn about all axes.
@@ -506,12 +531,12 @@ const tests = {
     await browser.until(`${text("#planner-status")} === "There is a path, certified." && ${measure("planner-measures", "Motions")} === "rigid"`);
     assert.equal(await browser.evaluate(value("#planner-goal-turn")), "1, 0, 0, 1");
     await picture(browser, "planner_rigid");
+    await omplFinds();
     // OMPL.app's file: the fields get what it says; the hole has the robot's size, so that sampling finds none.
     await open("wall.cfg");
     await browser.until(`${text("#planner-status")} === "There is a path."`);
     assert.equal(await browser.evaluate(value("#planner-start-x")), "2");
     assert.match(await browser.evaluate(text("#planner-commands")), /planner wall\.cfg --start 2,1,-1 --goal 7,3\/2,-3\/2/);
-    const ompl = (name) => browser.evaluate(`(() => { const list = document.querySelector("#planner-ompl"); list.value = "${name}"; list.dispatchEvent(new Event("change")); })()`);
     await type(browser, "#planner-seconds", "1");
     await ompl("RRTConnect");
     await browser.until(`${measure("planner-measures", "RRTConnect")} !== undefined`);

@@ -31,30 +31,13 @@ function sideColor(layer, facet, fromAbove) {
   return inner ? rgb.map((c) => Math.round(c * 0.8)) : rgb;
 }
 
-// Corners of triangles that are one vertex and look the same are drawn as one: a vertex costs as much as a triangle, and
-// has six of them. Gives the corners that stand for the others, and for each corner which of these stands for it.
-function sharedCorners(corners, vertexCount, lookSame) {
-  const latest = new Int32Array(vertexCount).fill(-1); // of a vertex
-  const before = []; // the one of the same vertex that came before
-  const chosen = [];
-  const index = new Uint32Array(corners.length);
-  for (let i = 0; i < corners.length; ++i) {
-    const vertex = corners[i];
-    let one = latest[vertex];
-    while (one >= 0 && !lookSame(chosen[one], i)) one = before[one];
-    if (one < 0) {
-      one = chosen.push(i) - 1;
-      before.push(latest[vertex]);
-      latest[vertex] = one;
-    }
-    index[i] = one;
-  }
-  return { chosen, index };
-}
-
 function facetGeometry(layer) {
   const { begin, corners, mark, flags } = layer.facets;
   const { xyz } = layer.vertices;
+  const position = new Float32Array(corners.length * 3);
+  for (let i = 0; i < corners.length; ++i) {
+    for (let k = 0; k < 3; ++k) position[3 * i + k] = xyz[3 * corners[i] + k];
+  }
   // Four bytes as one number, least significant first, as on every machine with WebGL.
   const front = new Uint32Array(corners.length);
   const back = new Uint32Array(corners.length);
@@ -80,24 +63,11 @@ function facetGeometry(layer) {
       }
     }
   }
-  const places = layer.surface?.places;
-  const samePlace = (i, j) => !places || (places[2 * i] === places[2 * j] && places[2 * i + 1] === places[2 * j + 1]);
-  const { chosen, index } = sharedCorners(corners, xyz.length / 3, (i, j) => front[i] === front[j] && back[i] === back[j] && samePlace(i, j));
-  // Numbers of each chosen corner, of which `from` has `size` at the place that `at` says.
-  const gather = (from, size, at) => {
-    const numbers = new from.constructor(chosen.length * size);
-    chosen.forEach((corner, n) => {
-      for (let k = 0; k < size; ++k) numbers[size * n + k] = from[size * at(corner) + k];
-    });
-    return numbers;
-  };
-  const own = (corner) => corner;
   const geometry = new THREE.BufferGeometry();
-  geometry.setIndex(new THREE.BufferAttribute(index, 1));
-  geometry.setAttribute("position", new THREE.BufferAttribute(gather(xyz, 3, (corner) => corners[corner]), 3));
-  geometry.setAttribute("front", new THREE.BufferAttribute(new Uint8Array(gather(front, 1, own).buffer), 4, true));
-  geometry.setAttribute("back", new THREE.BufferAttribute(new Uint8Array(gather(back, 1, own).buffer), 4, true));
-  if (places) geometry.setAttribute("place", new THREE.BufferAttribute(gather(places, 2, own), 2));
+  geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
+  geometry.setAttribute("front", new THREE.BufferAttribute(new Uint8Array(front.buffer), 4, true));
+  geometry.setAttribute("back", new THREE.BufferAttribute(new Uint8Array(back.buffer), 4, true));
+  if (layer.surface?.places) geometry.setAttribute("place", new THREE.BufferAttribute(layer.surface.places, 2));
   return geometry;
 }
 

@@ -291,7 +291,7 @@ TEST_CASE("The program plans for robots that turn freely", "[rigid]") {
   CHECK(stopped.code == 5);
   CHECK_THAT(stopped.out, Catch::Contains(R"("status": "undecided")"));
   CHECK(planner(folder, elbow + " --start 0,0,0,1,1,1,1").code == 3);
-  for (const char* option : {"--tight", "--ompl RRTConnect", "--raw", "--digits 3", "--widest", "-o a.xyz"}) {
+  for (const char* option : {"--tight", "--benchmark bench.log", "--raw", "--digits 3", "--widest", "-o a.xyz"}) {
     INFO(option);
     const Run refused = planner(folder, elbow + " " + option);
     CHECK(refused.code == 2);

@@ -32,6 +32,7 @@
 #include "apps/visual_hull/formats/write_scene.h"
 #include "apps/visual_hull/points/point_cloud.h"
 #include "apps/visual_hull/scene/understanding.h"
+#include "nef/base/counted.h"
 #include "nef/base/error.h"
 #include "nef/base/text/word_list.h"
 #include "nef/io/file_bytes.h"
@@ -73,8 +74,8 @@ std::string silhouette_line(const ViewResult& view) {
     line += fmt::format("the object is {:.1f} % of the image", 100 * (s.background ? 1 - share : share));
   }
   const std::size_t pieces = s.contours - s.holes;
-  if (pieces > 1) line += fmt::format(", {} pieces", pieces);
-  if (s.holes > 0) line += fmt::format(", {} hole{}", s.holes, s.holes == 1 ? "" : "s");
+  if (pieces > 1) line += ", " + nef::counted(pieces, "piece", "pieces");
+  if (s.holes > 0) line += ", " + nef::counted(s.holes, "hole", "holes");
   if (s.cut_by_frame) line += ", cut by the frame";
   return line;
 }

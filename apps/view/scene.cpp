@@ -12,6 +12,7 @@
 #include "nef/base/error.h"
 #include "nef/complex/predicates_of_sets.h"
 #include "nef/construct/construct.h"
+#include "nef/export/to_mesh.h"
 #include "nef/mesh/polygon/triangulate.h"
 
 namespace nef::view {
@@ -77,12 +78,11 @@ class SceneBuilder {
       if (is_box_vertex(complex_, v)) continue;
       number_[v] = static_cast<std::uint32_t>(scene_.vertices.size());
       const SphereMapView map = complex_.sphere_map(v);
-      exact_.push_back(complex_.points.rational(point_of(v)));
-      Point position;
-      for (std::size_t i = 0; i < 3; ++i) position[i] = nearest_double(exact_.back()[i]);
+      places_.push_back(point_of(v));
+      positions_.push_back(nearest_doubles(complex_.points, point_of(v)));
       const bool wall =
           std::any_of(map.sfaces.begin(), map.sfaces.end(), [](const SFace& sface) { return sface.mark == kOutside; });
-      scene_.vertices.push_back({position, v.index(), map.mark, wall ? Origin::kBox : Origin::kOwn,
+      scene_.vertices.push_back({positions_.back(), v.index(), map.mark, wall ? Origin::kBox : Origin::kOwn,
                                  map.svertices.empty() && map.shalfedges.empty() && map.sloops.empty()});
     }
   }
@@ -112,7 +112,7 @@ class SceneBuilder {
   }
 
   void add_facets() {
-    const MeshPoints points(exact_);
+    const MeshPoints points(complex_.points, places_, positions_, {});
     Triangulator triangulator(points, monitor_);
     for (const FacetId f : complex_.facets.ids()) {
       const Facet& facet = complex_.facets[f];
@@ -144,7 +144,8 @@ class SceneBuilder {
   Monitor monitor_;
   IndexedVector<HalfedgeId, bool> in_wall_;        // one of the two of an edge
   IndexedVector<VertexId, std::uint32_t> number_;  // scene vertex of each vertex
-  std::vector<Rational3> exact_;                   // point of each scene vertex
+  std::vector<PointId> places_;                    // point of each scene vertex
+  std::vector<Point> positions_;                   // the same, rounded
 };
 
 Point rounded(const Rational3& point) { return nearest_doubles(point); }

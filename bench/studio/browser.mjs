@@ -3,7 +3,9 @@
 // node bench/studio/browser.mjs NEF [STEPS]: how long a page of the studio takes from a change to its picture, in a headless
 // Chromium, which draws by software. Rows as in latency.py, and a sphere of 300,000 triangles that is turned and cut.
 // Prints milliseconds: the median and the largest until it is on the screen, and medians of the parts of that: the request
-// until its last byte, the page's own work, and the frame, with the share of the pixels of a side in which it was drawn.
+// until its last byte, the page's own work, and the frame, with the share of the pixels of a side in which it was drawn. Then
+// milliseconds a step of a drag, in which the next step is computed while the picture of the last one is drawn, and how many of the pictures
+// there were.
 import { spawn } from "node:child_process";
 import { cpSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -67,6 +69,34 @@ for (const [name, [prepare, change]] of Object.entries(rows)) {
   const median = (k) => times.map((time) => time[k]).sort((a, b) => a - b)[Math.floor(times.length / 2)];
   const largest = Math.max(...times.map(([all]) => all)).toFixed(0);
   console.log(`| ${name} | ${median(0).toFixed(0)} | ${largest} | ${[1, 2, 3].map((k) => median(k).toFixed(0)).join(" | ")} | ${median(4)} |`);
+}
+
+console.log("\n| steps in a row | ms a step | steps | pictures |\n| --- | --- | --- | --- |");
+for (const name of ["a cube over 131,000 triangles", "a cube over 300,000 triangles"]) {
+  const [prepare, change] = rows[name];
+  const [milliseconds, pictures] = await browser.evaluate(`(async () => {
+    const { pacer } = nefViewer;
+    await (${prepare});
+    await pacer.shown();
+    const { draw } = pacer;
+    let pictures = 0;
+    pacer.draw = (...what) => {
+      ++pictures;
+      draw(...what);
+    };
+    let before = Promise.resolve(); // the picture of the last step
+    let begin = 0;
+    for (let i = -${steps}; i < ${steps}; ++i) {
+      if (i === 0) [begin, pictures] = [performance.now(), 0];
+      await (${change});
+      await before;
+      before = pacer.shown();
+    }
+    await before;
+    pacer.draw = draw;
+    return [(performance.now() - begin) / ${steps}, pictures];
+  })()`);
+  console.log(`| ${name} | ${milliseconds.toFixed(0)} | ${steps} | ${pictures} |`);
 }
 await browser.close();
 server.kill("SIGTERM");

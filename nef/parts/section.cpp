@@ -74,11 +74,14 @@ class SectionReader {
 
 }  // namespace
 
-Section section(const Polyhedron& a, const Rational3& normal, const Rational& offset, const Monitor& monitor) {
+Polyhedron plane_of_section(const Rational3& normal, const Rational& offset, const Monitor& monitor) {
   if (is_zero(normal)) throw InputError("the plane of a section needs a normal that is not (0,0,0)");
-  const Polyhedron plane = boundary(make_halfspace(normal[0], normal[1], normal[2], offset, true, monitor), monitor);
+  return boundary(make_halfspace(normal[0], normal[1], normal[2], offset, true, monitor), monitor);
+}
+
+Section section(const Polyhedron& a, const Rational3& normal, const Rational& offset, const Monitor& monitor) {
   Section result;
-  result.set = intersect(a, plane, monitor);
+  result.set = intersect(a, plane_of_section(normal, offset, monitor), monitor);
   const Polyhedron closed = closure(result.set, monitor);
   SectionReader(closed.complex(), normal, result).run();
   return result;

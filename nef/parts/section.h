@@ -37,4 +37,7 @@ struct Section {
 /// is zero. One Boolean operation with the plane: O(n) and O(k log k) for k items in the section.
 Section section(const Polyhedron& a, const Rational3& normal, const Rational& offset, const Monitor& monitor = {});
 
+/// The plane itself: all points x with normal . x + offset = 0. Throws InputError if the normal is zero.
+Polyhedron plane_of_section(const Rational3& normal, const Rational& offset, const Monitor& monitor = {});
+
 }  // namespace nef

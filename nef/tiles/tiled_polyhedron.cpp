@@ -180,4 +180,9 @@ VolumeAndBox volume_and_bounding_box(const TiledPolyhedron& a, const Monitor& mo
   return {extent.volume, extent.bounded ? extent.box : bounding_box(a.polyhedron(monitor), monitor)};
 }
 
+Section section(const TiledPolyhedron& a, const Rational3& normal, const Rational& offset, const Monitor& monitor) {
+  const TiledPolyhedron cut = intersect(a, plane_of_section(normal, offset, monitor), monitor);
+  return section(cut.polyhedron(monitor), normal, offset, monitor);
+}
+
 }  // namespace nef

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "nef/base/monitor.h"
+#include "nef/parts/section.h"
 #include "nef/polyhedron.h"
 #include "nef/tiles/tiling.h"
 
@@ -106,5 +107,9 @@ struct VolumeAndBox {
   std::optional<std::array<Rational3, 2>> box;
 };
 VolumeAndBox volume_and_bounding_box(const TiledPolyhedron& a, const Monitor& monitor = {});
+
+/// The section of the set with a plane, as of a Polyhedron. Only the tiles that the plane meets are looked at and
+/// glued.
+Section section(const TiledPolyhedron& a, const Rational3& normal, const Rational& offset, const Monitor& monitor = {});
 
 }  // namespace nef

@@ -5,6 +5,7 @@
 
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
+#include "nef/geometry/vectors.h"
 #include "nef/tiles/cuts/cutter.h"
 #include "tests/tiles/cuts.h"
 
@@ -116,6 +117,24 @@ TEST_CASE("queries in tiles are those of the whole set") {
       RC_ASSERT(contains(complement(in_tiles), p) == !contains(a, p));
     }
   });
+}
+
+TEST_CASE("sections of sets in tiles are those of the whole set") {
+  for_all_cut_pairs("sections", 4, [](const Polyhedron& a, const Polyhedron&, const Cuts& cuts, const Cuts&) {
+    const TiledPolyhedron in_tiles = tiled(a, cuts);
+    const Rational3 p = *adversarial_points().as("point");
+    for (const Rational3& normal : {Rational3{1, 0, 0}, Rational3{0, 0, -2}, Rational3{1, 2, -1}}) {
+      const Rational offset = -dot(normal, p);
+      const Section cut = section(in_tiles, normal, offset);
+      const Section whole = section(a, normal, offset);
+      RC_ASSERT(equal(cut.set, whole.set));
+      RC_ASSERT(cut.polygons.size() == whole.polygons.size());
+      RC_ASSERT(cut.segments.size() == whole.segments.size());
+      RC_ASSERT(cut.points.size() == whole.points.size());
+      RC_ASSERT(cut.unbounded == whole.unbounded);
+    }
+  });
+  CHECK_THROWS_AS(section(TiledPolyhedron(), {0, 0, 0}, 1), InputError);
 }
 
 TEST_CASE("rays through tiles meet what they meet in the whole") {

@@ -30,10 +30,6 @@ class ExpressionCache {
     std::optional<Polyhedron> whole;
     std::optional<TiledPolyhedron> tiled;
     std::vector<Polyhedron> shapes;  ///< the sets that the operators of the text join
-
-    [[nodiscard]] Polyhedron polyhedron(const Monitor& monitor) const {
-      return whole ? *whole : tiled->polyhedron(monitor);
-    }
   };
 
   /// The set of a text, as evaluate_expression makes it; in tiles if the first set of the text is large and bounded,

@@ -70,7 +70,7 @@ std::string name_of(const InputSet& shapes) {
 
 }  // namespace
 
-void answer_section(const Json& request, const std::function<Polyhedron()>& set, const PanelContext& context,
+void answer_section(const Json& request, const ExpressionCache::Result& set, const PanelContext& context,
                     PanelResult& result) {
   const auto asked = request.find("section");
   if (asked == request.end() || !asked->is_object()) return;
@@ -81,7 +81,9 @@ void answer_section(const Json& request, const std::function<Polyhedron()>& set,
   if (!offset) throw FieldError("section", 0, "'" + text + "' is not a number such as 0.5 or 1/3");
   Rational3 normal;
   normal[axis.get<unsigned>()] = 1;
-  const Section cut = section(set(), normal, Rational(-*offset), context.monitor);
+  const Rational at = -*offset;
+  const Section cut =
+      set.tiled ? section(*set.tiled, normal, at, context.monitor) : section(*set.whole, normal, at, context.monitor);
   result.report["section"] = {{"area", view::section_area(cut)}, {"polygons", cut.polygons.size()},
                               {"segments", cut.segments.size()}, {"points", cut.points.size()},
                               {"unbounded", cut.unbounded},      {"svg", view::section_svg(cut, normal)}};

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <vector>
 
 #include "apps/studio/panels/panel.h"
@@ -13,9 +12,9 @@
 namespace nef::studio {
 
 /// The exact section of "section": {"axis": 0, 1 or 2, "offset": a number}, if there is one: report "section" (the area
-/// of its polygons in doubles, how many there are, a drawing as SVG), set "section", and a piece. `set` is called if
-/// so. Throws FieldError.
-void answer_section(const Json& request, const std::function<Polyhedron()>& set, const PanelContext& context,
+/// of its polygons in doubles, how many there are, a drawing as SVG), set "section", and a piece. Throws
+/// FieldError.
+void answer_section(const Json& request, const ExpressionCache::Result& set, const PanelContext& context,
                     PanelResult& result);
 
 /// The exact distance of "from" and "to", two expressions, if both are texts that are not blank: report "distance"

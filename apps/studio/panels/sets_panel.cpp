@@ -83,9 +83,8 @@ PanelResult sets_panel(const Json& request, const PanelContext& context) {
       layer.scene = view::build_scene(*set.whole, {}, context.monitor);
     }
   }
-  const auto whole = [&] { return set.polyhedron(context.monitor); };
   answer_question(
-      "section", [&] { answer_section(request, whole, context, result); }, result);
+      "section", [&] { answer_section(request, set, context, result); }, result);
   answer_question(
       "distance", [&] { answer_distance(request, context, result); }, result);
   return result;

@@ -46,7 +46,9 @@ class TilePieces {
   };
   using Key = std::pair<const TileNode*, bool>;  // a node, and whether its complement is meant
 
+  static Key key_of(const TileRef& leaf) { return {leaf.node.get(), leaf.complemented}; }
   Entry made(const TileRef& leaf, const Monitor& monitor);
+  std::vector<Entry> entries_of(const std::vector<TileRef>& leaves, const Monitor& monitor);
   void forget_old();
 
   PieceNumbers& numbers_;

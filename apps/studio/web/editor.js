@@ -59,7 +59,7 @@ export class ExpressionEditor {
   // Without telling onChange.
   set text(text) {
     this.area.value = text;
-    this.showError(null);
+    this.#show(null);
   }
 
   // Other text in a range of it, without telling onChange; the cursor is put before it.
@@ -72,6 +72,10 @@ export class ExpressionEditor {
 
   // {offset, message} or null.
   showError(error) {
+    if (error || this.error.textContent) this.#show(error); // else it is painted already
+  }
+
+  #show(error) {
     this.mark = error ? charactersOf(this.text, error.offset) : null;
     this.error.textContent = error ? error.message : "";
     this.area.setAttribute("aria-invalid", String(Boolean(error)));

@@ -12,8 +12,8 @@ const folder = dirname(fileURLToPath(import.meta.url));
 const read = (path) => readFileSync(path, "utf8");
 
 // Each after those that it uses at its top level.
-const viewer = ["scene_data.js", "vectors.js", "camera_control.js", "frame_pacer.js", "materials.js", "layer_view.js", "section.js",
-  "picking.js", "sphere_regions.js", "sphere_view.js", "item_text.js", "panel.js", "viewer.js"].map((name) => join(folder, name));
+const viewer = ["scene_data.js", "vectors.js", "camera_control.js", "frame_pacer.js", "materials.js", "layer_view.js", "coarse_view.js", "smooth_frame.js",
+  "section.js", "picking.js", "sphere_regions.js", "sphere_view.js", "item_text.js", "panel.js", "viewer.js"].map((name) => join(folder, name));
 
 // three ends with one export statement `export{a as B,...};`, which becomes an object.
 function threeAsObject(source) {
@@ -26,8 +26,12 @@ function threeAsObject(source) {
   return `const THREE = (() => {\n${source.slice(0, match.index)}\nreturn {${members.join(",")}};\n})();\n`;
 }
 
-function withoutModuleSyntax(path) {
-  const source = read(path)
+function withoutModuleSyntax(path, _, all) {
+  const text = read(path);
+  for (const [, imported] of text.matchAll(/^import [^;]* from "\.[^"]*?([^/"]+)";$/gm)) {
+    if (!all.some((one) => basename(one) === imported)) throw new Error(`${path} imports ${imported}, which is not joined`);
+  }
+  const source = text
     .replace(/^import [^;]*;\n/gm, "")
     .replace(/^export (?=(const|let|class|function|async) )/gm, "");
   if (/^(import|export)\b/m.test(source)) throw new Error(`${path}: an import or export that bundle.mjs cannot join`);

@@ -199,7 +199,6 @@ function photoMesh(photo, onLoad) {
   geometry.setIndex([0, 3, 1, 1, 3, 2]);
   const material = new THREE.MeshBasicMaterial({ side: THREE.DoubleSide });
   material.map = new THREE.TextureLoader().load(photo.url, onLoad);
-  material.map.colorSpace = THREE.SRGBColorSpace;
   return new THREE.Mesh(geometry, material);
 }
 
@@ -249,8 +248,10 @@ export class LayerView {
       facetMaterial(shared, this.opacity, layer.surface !== undefined, image),
     );
     this.facets.frustumCulled = false;
+    this.whole = new THREE.Group(); // what CoarseView draws in few triangles
     const finish = (mesh) => {
-      this.group.add(thin ? shineThrough(mesh) : mesh);
+      mesh.matrixAutoUpdate = false;
+      this.whole.add(thin ? shineThrough(mesh) : mesh);
       return mesh;
     };
     this.makeEdges = () => finish(lineMesh(edgeSegments(layer, length, thin && !alone), shared));
@@ -261,7 +262,10 @@ export class LayerView {
     if (layer.box) segments.push(...boxSegments(layer.box));
     if (segments.length > 0) this.extras.add(shineThrough(lineMesh(segments, shared)));
     for (const photo of layer.photos) this.extras.add(photoMesh(photo, onLoad));
-    this.group.add(this.facets, this.extras);
+    this.whole.add(this.facets);
+    this.group.add(this.whole, this.extras);
+    // It moves as a whole, and seldom.
+    this.group.traverse((object) => (object.matrixAutoUpdate = false));
     this.group.visible = layer.visible;
     this.setOpacity(layer.opacity);
   }
@@ -299,7 +303,18 @@ export class LayerView {
   // Puts it where its coordinates begin.
   place() {
     if (this.layer.offset) this.group.position.set(...this.layer.offset);
+    this.#moved();
+  }
+
+  // Moves it by a vector from where the page has it.
+  moveBy(vector) {
+    this.group.position.set(...vector);
+    this.#moved();
+  }
+
+  #moved() {
     this.group.updateMatrix();
+    this.group.matrixWorldNeedsUpdate = true;
   }
 
   // Moves the layer to where its motion is at a time.
@@ -313,17 +328,18 @@ export class LayerView {
     const span = times[j] - times[i];
     const t = span > 0 ? Math.min(1, Math.max(0, (time - times[i]) / span)) : 0;
     this.group.position.set(...offsets[i].map((x, k) => x + (offsets[j][k] - x) * t));
-    if (!turns) return;
-    const quaternion = ([w, x, y, z]) => new THREE.Quaternion(x, y, z, w);
-    this.group.quaternion.slerpQuaternions(quaternion(turns[i]), quaternion(turns[j]), t);
-    // About the pivot rather than the origin.
-    const about = new THREE.Vector3(...pivot);
-    this.group.position.add(about).sub(about.clone().applyQuaternion(this.group.quaternion));
+    if (turns) {
+      const quaternion = ([w, x, y, z]) => new THREE.Quaternion(x, y, z, w);
+      this.group.quaternion.slerpQuaternions(quaternion(turns[i]), quaternion(turns[j]), t);
+      // About the pivot rather than the origin.
+      const about = new THREE.Vector3(...pivot);
+      this.group.position.add(about).sub(about.clone().applyQuaternion(this.group.quaternion));
+    }
+    this.#moved();
   }
 
   // From the layer's coordinates to the page's.
   matrix() {
-    this.group.updateMatrix();
     return this.group.matrix;
   }
 }

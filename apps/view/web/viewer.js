@@ -4,6 +4,7 @@
 // studio shows one after the other.
 import * as THREE from "three";
 import { CameraControl } from "./camera_control.js";
+import { CoarseView, MOST_TRIANGLES, triangleCount } from "./coarse_view.js";
 import { FramePacer } from "./frame_pacer.js";
 import { itemText, markBadge, sphereItemText } from "./item_text.js";
 import { LayerView, dotMesh, lineMesh } from "./layer_view.js";
@@ -12,8 +13,10 @@ import { byId, makeLayerRows, makeLegend } from "./panel.js";
 import { Picker } from "./picking.js";
 import { originOf, ORIGIN_OWN } from "./scene_data.js";
 import { Section } from "./section.js";
+import { SmoothFrame } from "./smooth_frame.js";
 import { SphereView } from "./sphere_view.js";
 
+THREE.ColorManagement.enabled = false;
 const HIGHLIGHT = [230, 20, 90];
 const START_DIRECTION = new THREE.Vector3(0.55, -0.75, 0.42);
 const UP = new THREE.Vector3(0, 0, 1);
@@ -22,9 +25,16 @@ const PLAY_SECONDS = 10;
 export class Viewer {
   constructor(page) {
     this.canvas = byId("view");
-    this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: true, stencil: true });
+    this.renderer = new THREE.WebGLRenderer({ canvas: this.canvas, antialias: false, stencil: true });
+    // Colours are numbers of the screen throughout, in the canvas and beside it.
+    this.renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
+    this.smooth = new SmoothFrame(this.renderer);
     this.sharpness = 1; // the share of the pixels of a side that is drawn
-    this.pacer = new FramePacer(this.renderer.getContext(), (share) => this.#render(share));
+    this.pacer = new FramePacer(this.renderer.getContext(), {
+      draw: (share, coarse) => this.#render(share, coarse),
+      isLarge: () => this.views.reduce((sum, view) => sum + triangleCount(view), 0) > MOST_TRIANGLES,
+    });
+    this.coarse = new CoarseView();
     this.#followColorScheme();
     this.camera = new THREE.PerspectiveCamera(32, 1, 0.1, 100);
     this.shared = sharedUniforms();
@@ -76,6 +86,8 @@ export class Viewer {
     this.section = new Section(this.views, this.shared, this.radius, this.section);
     this.section.addTo(this.scene);
     this.picker = new Picker(this.views, this.section, this.camera, this.canvas);
+    this.coarse.dispose();
+    this.coarseIsOld = true;
     this.#showControls();
     this.requestDraw();
   }
@@ -123,10 +135,11 @@ export class Viewer {
   // Now, in all pixels.
   draw() {
     this.pacer.drawn();
-    this.#render(1);
+    this.#render(1, false);
   }
 
-  #render(share) {
+  // In a share of the pixels of a side; coarse: large layers in few triangles. A section's caps need closed boundaries.
+  #render(share, coarse) {
     if (share !== this.sharpness) this.#sharpen(share);
     const distance = this.camera.position.length();
     this.camera.near = Math.max(distance - 1.5 * this.radius, distance * 0.01, this.radius * 0.002);
@@ -134,8 +147,17 @@ export class Viewer {
     this.camera.updateProjectionMatrix();
     this.camera.updateMatrixWorld();
     this.section.update();
-    this.renderer.render(this.scene, this.camera);
+    const render = () => this.renderer.render(this.scene, this.camera);
+    if (coarse && !this.section.on) this.#coarseView().draw(this.scene, render);
+    else if (share === 1) this.smooth.draw(render);
+    else render();
     for (const view of this.retired.splice(0)) view.dispose();
+  }
+
+  #coarseView() {
+    if (this.coarseIsOld) this.coarse.show(this.views, this.radius);
+    this.coarseIsOld = false;
+    return this.coarse;
   }
 
   // For what is dragged from a pixel, so deep: the plane of the two coordinates that the eye looks across. at(x, y) is the

@@ -190,6 +190,64 @@ const tests = {
     console.log(`  loaded in ${load} ms, drawn in ${draw.toFixed(0)} ms (by the processor), picked in ${pick.toFixed(0)} ms`);
     assert.ok(pick < 3000);
   },
+
+  async "few triangles stand for many"(browser) {
+    await browser.open(join(folder, "terrain.html"), 550, 380);
+    const [whole, few, different, all] = await browser.evaluate(`(() => {
+      const { pacer, renderer, canvas } = nefViewer;
+      const gl = renderer.getContext();
+      const drawn = (share, coarse) => {
+        pacer.draw(share, coarse);
+        const { triangles } = renderer.info.render;
+        const pixels = new Uint8Array(4 * canvas.width * canvas.height);
+        gl.readPixels(0, 0, canvas.width, canvas.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+        return { triangles, pixels };
+      };
+      const whole = drawn(0.7, false);
+      const few = drawn(0.7, true);
+      let different = 0;
+      for (let i = 0; i < whole.pixels.length; i += 4) {
+        if ([0, 1, 2].some((k) => Math.abs(whole.pixels[i + k] - few.pixels[i + k]) > 40)) ++different;
+      }
+      return [whole.triangles, few.triangles, different, whole.pixels.length / 4];
+    })()`);
+    assert.ok(whole > 90000, `${whole} triangles`);
+    assert.ok(few > 4000 && few < 25000, `${few} instead of ${whole} triangles`);
+    assert.ok(different < 0.05 * all, `${different} of ${all} pixels differ`);
+  },
+
+  // What is drawn while frames seem to take 70 ms, and when nothing moves any more: [share, coarse] of the frames.
+  async "slow frames are drawn in few triangles until nothing moves"(browser) {
+    const frames = `(async () => {
+      const { pacer } = nefViewer;
+      await pacer.shown();
+      const frames = [];
+      const { draw } = pacer;
+      pacer.draw = (...what) => {
+        frames.push(what);
+        draw(...what);
+        for (const end = performance.now() + 70; performance.now() < end;);
+      };
+      for (let i = 0; i < 12; ++i) {
+        nefViewer.control.turn(0.05, 0);
+        await pacer.shown();
+      }
+      const moved = frames.length;
+      for (const end = performance.now() + 20000; performance.now() < end && !(frames.at(-1)[0] === 1 && !frames.at(-1)[1] && frames.length > moved);) {
+        await new Promise((done) => setTimeout(done, 50));
+      }
+      return [frames[moved - 1], frames.at(-1)];
+    })()`;
+    await browser.open(join(folder, "terrain.html"), 550, 380);
+    const [moving, resting] = await browser.evaluate(frames);
+    assert.equal(moving[1], true, "in few triangles");
+    assert.ok(moving[0] < 1, "in fewer pixels");
+    assert.deepEqual(resting, [1, false]);
+    await browser.open(join(folder, "mixture.html"), 550, 380);
+    const [small, still] = await browser.evaluate(frames);
+    assert.equal(small[1], false, "few triangles stay as they are");
+    assert.deepEqual(still, [1, false]);
+  },
 };
 
 const chromium = findChromium();

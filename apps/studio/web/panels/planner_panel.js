@@ -319,7 +319,7 @@ export class PlannerPanel {
         this.#setPoint(field, field === "move" ? numbers : [...numbers, ...this.#turn(field)]);
         if (field === "move") this.moves[this.obstacle] = numbers;
         const view = viewer.views.find(({ layer }) => layer.name === name);
-        if (view && !view.layer.motion) view.group.position.set(...numbers.map((number, i) => approximately(number) - approximately(before[i])));
+        if (view && !view.layer.motion) view.moveBy(numbers.map((number, i) => approximately(number) - approximately(before[i])));
         viewer.requestDraw();
         this.#dragged();
       },

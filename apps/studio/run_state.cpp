@@ -46,7 +46,7 @@ void run_state(const StudioOptions& options, const std::string& output, std::ost
       PolyhedronWriteOptions how;
       how.monitor = monitor;
       Messages notes;
-      write_polyhedron(output, set->second.whole(monitor), how, &notes);
+      set->second.write(output, how, notes);
     }
     out << result.report.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
   });

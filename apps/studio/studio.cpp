@@ -229,7 +229,7 @@ Json Studio::export_set(const Json& request) {
     options.exact = flag(request, "exact");
     options.manifold = flag(request, "manifold");
     options.monitor = monitor;
-    write_polyhedron(target.string(), set.whole(monitor), options, &notes);
+    set.write(target.string(), options, notes);
     return std::nullopt;
   });
   for (std::string& note : notes) {

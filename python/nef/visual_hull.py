@@ -230,7 +230,7 @@ def _lenses(lens, count):
 
 
 def read(path: Any, *, box: Any = None, tolerance: float = 0, outer: bool = False, soft: bool = False, min_area: float = 0,
-         half_pixels: bool = False, unknown_beyond: bool = False, images: Any = None, threshold: Any = None,
+         half_pixels: bool = False, unknown_beyond: bool = False, images: Any = None, without: Sequence[str] = (), threshold: Any = None,
          channel: Optional[str] = None, invert: bool = False, mask: Optional[str] = None, repair_masks: bool = False,
          matrices: Optional[str] = None, up: Optional[str] = None, turntable: Optional[int] = None,
          intrinsics: Optional[Sequence[float]] = None, radius: Optional[float] = None, height: float = 0,
@@ -241,6 +241,7 @@ def read(path: Any, *, box: Any = None, tolerance: float = 0, outer: bool = Fals
     NeRF's transforms.json, COLMAP, Middlebury, matrices); arguments as in compute, and:
 
     - images: a folder with an image for each view, instead of those that the scene names
+    - without: names of views that are left out
     - threshold, channel, invert: pixels brighter than `threshold` (a number or "otsu") in this channel ("red", ...) are the
       object; with `invert`, those that are darker
     - matrices: which matrices of an OpenCV or MATLAB file are the projections, such as "world_mat_*"
@@ -261,7 +262,7 @@ def read(path: Any, *, box: Any = None, tolerance: float = 0, outer: bool = Fals
                        at_least=at_least, largest=largest, verify=verify, threads=threads)
     table = None if turntable is None else (turntable, intrinsics, radius, height)
     try:
-        return _hull(_visual_hull.from_file(os.fspath(path), options, matrices or "", up or "", table, texture, progress))
+        return _hull(_visual_hull.from_file(os.fspath(path), options, matrices or "", up or "", table, [str(name) for name in without], texture, progress))
     except InputError as error:
         error.args = (str(error).replace("--texture", "texture"),)
         raise

@@ -534,6 +534,11 @@ def test_how_files_are_read(needs):
     scene = ROOT / "data" / "visual_hull" / "eight" / "eight.json"
     hull = visual_hull.read(scene, tolerance=3, verify=False)
     assert visual_hull.read(scene, tolerance=3, verify=False, threshold="otsu").solid == hull.solid
+    names = [view.name for view in hull.views]
+    some = visual_hull.read(scene, tolerance=3, verify=False, without=names[:2])
+    assert [view.name for view in some.views] == names[2:] and hull.solid < some.solid
+    with pytest.raises(nef.InputError, match="view nobody cannot be left out"):
+        visual_hull.read(scene, without=["nobody"])
     assert visual_hull.read(scene, tolerance=3, verify=False, threshold=100, channel="gray").solid == hull.solid
     assert visual_hull.read(scene, tolerance=3, verify=False, way="cones").solid == hull.solid
     turned = visual_hull.read(scene, tolerance=3, verify=False, up="x").solid

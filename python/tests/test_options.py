@@ -160,6 +160,7 @@ PROGRAMS = {
         "--radius": "nef.visual_hull.read(radius)",
         "--height": "nef.visual_hull.read(height)",
         "--images": "nef.visual_hull.read(images)",
+        "--without": "nef.visual_hull.read(without)",
         "--frames": "call nef.visual_hull.compute for each frame",
         "--silhouette": "scenes may have polygons in place of images",
         "--threshold": "nef.visual_hull.read(threshold)",

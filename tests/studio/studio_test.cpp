@@ -14,6 +14,7 @@
 #include "apps/studio/run_state.h"
 #include "nef/construct/construct.h"
 #include "nef/construct/round_shapes.h"
+#include "nef/io/file_bytes.h"
 #include "nef/io/polyhedron_file.h"
 #include "tests/support/paths.h"
 #include "tests/support/temporary_folder.h"
@@ -456,6 +457,24 @@ TEST_CASE("Hulls: views switched off, and images of the scene") {
   CHECK(all.report["overlay"]["view"] == 3);
   CHECK(all.report["overlay"]["url"].get<std::string>().starts_with("data:image/png;base64,iVBOR"));
   CHECK(all.scene["layers"][0].contains("surface"));
+  // Files of the hull have them, if they can; no file is written beside.
+  const auto write = [&](const std::string& name) {
+    return answer(studio, "export", {{"page", "a"}, {"set", "result"}, {"name", name}});
+  };
+  CHECK(write("hull.ply").dump().find("no colours") == std::string::npos);
+  std::ifstream ply(place.root / "hull.ply", std::ios::binary);
+  std::string line;
+  bool red = false;
+  while (std::getline(ply, line) && line != "end_header") red = red || line == "property uchar red";
+  CHECK(red);
+  CHECK(write("hull.stl")["notes"][0].get<std::string>().find("the file has no colours: PLY") == 0);
+  request["colors"] = "texture";
+  compute(studio, request);
+  write("hull.glb");
+  const std::string glb = read_file((place.root / "hull.glb").string());
+  CHECK(glb.find("\"image/png\"") != std::string::npos);
+  CHECK(write("textured.ply")["notes"].back().get<std::string>().find("GLB and 3MF store them") != std::string::npos);
+  CHECK(!fs::exists(place.root / "textured_texture.png"));
   request["colors"] = "loud";
   CHECK(answer(studio, "compute", request, 422)["field"] == "colors");
   request["colors"] = "plain";

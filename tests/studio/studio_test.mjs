@@ -430,6 +430,8 @@ const tests = {
     await browser.key(" ");
     await browser.until(`${volume} > ${some}`);
     assert.equal(await browser.evaluate('document.querySelector("#hulls-views li:nth-child(3) input").checked'), false);
+    assert.match(await browser.evaluate(text("#hulls-commands")), /visual_hull eight\.json -o hull\.nef --without eight_01\.png eight_02\.png --simplify/);
+    assert.match(await browser.evaluate(text("#hulls-commands")), /read\("eight\.json", without=\["eight_01\.png","eight_02\.png"\], /);
     await click(browser, "#hulls-all");
     await browser.until(`${volume} === ${all}`);
     const [x, y] = await browser.evaluate(place("#hulls-slider"));

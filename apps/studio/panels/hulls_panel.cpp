@@ -4,11 +4,13 @@
 // Residuals are measured only if they are wanted: they cost more than the hull.
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "apps/program/set_info.h"
 #include "apps/studio/caches/silhouette_cache.h"
 #include "apps/studio/panels/panel.h"
 #include "apps/view/page/byte_text.h"
+#include "apps/visual_hull/command/hull_file.h"
 #include "apps/visual_hull/command/pictures/overlay.h"
 #include "apps/visual_hull/command/pictures/pictures.h"
 #include "apps/visual_hull/visual_hull.h"
@@ -102,6 +104,22 @@ Shown with_images(const visual_hull::Result& hull, const TracedScene& traced, co
   return shown;
 }
 
+// How files of the hull are coloured, by the photographs that are shown.
+ColorsOfFile colors_of_file(const std::shared_ptr<const Shown>& shown, visual_hull::HullColors colors) {
+  ColorsOfFile result;
+  if (colors == visual_hull::HullColors::kVertices) {
+    result.vertices = [shown](const Mesh& mesh, const Monitor& monitor, Messages& messages) {
+      return visual_hull::colors_of_hull(mesh, shown->hull, monitor, messages);
+    };
+  }
+  if (colors == visual_hull::HullColors::kTexture) {
+    result.texture = [shown](const Mesh& mesh, const Monitor& monitor, Messages& messages) {
+      return visual_hull::texture_of_hull(mesh, shown->hull, monitor, messages);
+    };
+  }
+  return result;
+}
+
 // The image of one view with its outline, the hull over it, and what of the outline the hull does not reach; null if
 // none is wanted or it is switched off.
 Json overlay_of(const Json& request, const Shown& shown, const Monitor& monitor) {
@@ -145,13 +163,13 @@ PanelResult hulls_panel(const Json& request, const PanelContext& context) {
   result.report["notes"] = notes;
   add_views(all, off, hull, result.report);
   const visual_hull::HullColors colors = colors_of(request);
-  const Shown shown = with_images(hull, traced, off);
+  const auto shown = std::make_shared<const Shown>(with_images(hull, traced, off));
   result.layers =
       visual_hull::page_layers(hull, hull.origin,
-                               visual_hull::hull_layer(colors == visual_hull::HullColors::kPlain ? hull : shown.hull,
+                               visual_hull::hull_layer(colors == visual_hull::HullColors::kPlain ? hull : shown->hull,
                                                        hull.origin, context.monitor, colors));
-  result.report["overlay"] = overlay_of(request, shown, context.monitor);
-  result.sets = {{"result", hull.hull}};
+  result.report["overlay"] = overlay_of(request, *shown, context.monitor);
+  result.sets.emplace("result", KeptSet(hull.hull, colors_of_file(shown, colors)));
   return result;
 }
 

@@ -12,6 +12,7 @@
 #include "apps/visual_hull/formats/scene_json.h"
 #include "apps/visual_hull/formats/turntable.h"
 #include "apps/visual_hull/scene/axes.h"
+#include "apps/visual_hull/scene/images.h"
 #include "nef/base/error.h"
 #include "nef/base/text/word_list.h"
 #include "nef/io/polyhedron_file.h"
@@ -99,6 +100,9 @@ void add_input_options(CLI::App& app, Arguments& a) {
                  "numbers in "
                  "their names")
       ->type_name("DIR");
+  app.add_option("--without", a.without, "Leave out these views, by their names (--check lists them)")
+      ->take_all()
+      ->type_name("VIEW");
   app.add_option(
          "--frames", a.frames,
          "Video: one folder of images per frame, as in frame_%04d/; -o needs such a number, too. Frames that the "
@@ -222,7 +226,7 @@ Options to_options(const Arguments& a) {
   }
   options.repair_masks = a.repair_masks;
   if (!a.box.empty()) options.box = parse_box(a.box);
-  if (!a.images.empty()) options.images = a.images;
+  options.images = images_folder(a);
   if (a.way != "best") options.way = a.way == "direct" ? Way::kDirect : Way::kCones;
   options.refine = a.refine;
   options.suspects = a.suspects;
@@ -253,7 +257,17 @@ Scene scene_of(const Arguments& a) {
   }
   if (!a.up.empty()) turn_up(scene, a.up);
   take_silhouettes(scene, a.silhouettes);
+  if (a.without.empty()) return scene;
+  nef::Messages notes;
+  leave_out_views(scene, a.without, scene_folder(a.scene),
+                  a.images.empty() ? std::nullopt : std::optional<std::filesystem::path>(a.images), &notes);
+  a.session.note_all(notes);
   return scene;
+}
+
+std::optional<std::filesystem::path> images_folder(const Arguments& a) {
+  if (a.images.empty() || !a.without.empty()) return std::nullopt;
+  return a.images;
 }
 
 void take_silhouettes(Scene& scene, const std::vector<std::string>& arguments) {

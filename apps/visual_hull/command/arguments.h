@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -43,6 +44,7 @@ struct Arguments {
   std::string channel;
   std::vector<std::string> silhouettes;
   std::string images;
+  std::vector<std::string> without;
   std::string frames;
   std::string overlay;
   std::string page;
@@ -76,6 +78,9 @@ Options to_options(const Arguments& arguments);
 
 /// The scene that the arguments name, its axes turned, polygons of --silhouette in place of images. Throws InputError.
 Scene scene_of(const Arguments& arguments);
+
+/// The folder of --images, if the scene of scene_of has not got its images from there already.
+std::optional<std::filesystem::path> images_folder(const Arguments& arguments);
 
 /// Puts the polygons of --silhouette in place of images. Throws InputError.
 void take_silhouettes(Scene& scene, const std::vector<std::string>& arguments);

@@ -95,6 +95,7 @@ const Arguments& checked(const Arguments& a) {
                                                  {"--points", !a.points.empty()},
                                                  {"--hull-masks", !a.hull_masks.empty()},
                                                  {"--images", !a.images.empty()},
+                                                 {"--without", !a.without.empty()},
                                                  {"--exact-volume", a.exact_volume},
                                                  {"--refine", a.refine},
                                                  {"--suspects", a.suspects}};

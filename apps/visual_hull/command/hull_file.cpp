@@ -42,8 +42,10 @@ void note_masks(const Result& result, nef::Messages& messages) {
       "the colours are those of the masks, because images/ beside them has no photographs of the same names");
 }
 
-std::vector<Color> colors_of(const nef::Mesh& mesh, const Result& result, const nef::Monitor& monitor,
-                             nef::Messages& messages) {
+}  // namespace
+
+std::vector<Color> colors_of_hull(const nef::Mesh& mesh, const Result& result, const nef::Monitor& monitor,
+                                  nef::Messages& messages) {
   VertexColors found = vertex_colors(mesh, result.views, result.origin, monitor);
   if (found.unseen > 0) {
     messages.push_back(fmt::format("{} of {} vertices are seen by no view and get the colours of their neighbours",
@@ -53,10 +55,10 @@ std::vector<Color> colors_of(const nef::Mesh& mesh, const Result& result, const 
   return std::move(found.colors);
 }
 
-nef::MeshTexture texture_of(const nef::Mesh& mesh, const Result& result, const nef::Monitor& monitor,
-                            nef::Messages& messages, std::optional<TextureFigures>& figures) {
+nef::MeshTexture texture_of_hull(const nef::Mesh& mesh, const Result& result, const nef::Monitor& monitor,
+                                 nef::Messages& messages, TextureFigures* figures) {
   HullTexture found = hull_texture(mesh, result.views, result.origin, monitor);
-  figures = TextureFigures{found.image.cols, found.image.rows, found.charts, found.unseen};
+  if (figures != nullptr) *figures = {found.image.cols, found.image.rows, found.charts, found.unseen};
   if (found.unseen >= 0.001) {
     messages.push_back(fmt::format("{:.1f} % of the surface is seen by no view and gets the colours of its neighbours",
                                    100 * found.unseen));
@@ -64,8 +66,6 @@ nef::MeshTexture texture_of(const nef::Mesh& mesh, const Result& result, const n
   note_masks(result, messages);
   return {png_of(found.image), std::move(found.corners)};
 }
-
-}  // namespace
 
 void check_output(const Arguments& a) {
   using nef::MeshFormat;
@@ -86,13 +86,13 @@ WrittenHull write_hull(const std::string& path, const Result& result, const Argu
                        nef::PolyhedronWriteOptions format, nef::Messages& messages) {
   if (a.color) {
     format.vertex_colors = [&result, &messages, monitor = format.monitor](const nef::Mesh& mesh) {
-      return colors_of(mesh, result, monitor, messages);
+      return colors_of_hull(mesh, result, monitor, messages);
     };
   }
   WrittenHull written;
   if (a.texture) {
     format.texture = [&result, &messages, &written, monitor = format.monitor](const nef::Mesh& mesh) {
-      return texture_of(mesh, result, monitor, messages, written.texture);
+      return texture_of_hull(mesh, result, monitor, messages, &written.texture.emplace());
     };
   }
   if (a.decimate == 0) {

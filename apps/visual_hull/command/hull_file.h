@@ -6,8 +6,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "apps/remeshing/decimate.h"
+#include "apps/visual_hull/color/vertex_colors.h"
 #include "apps/visual_hull/command/arguments.h"
 #include "nef/io/polyhedron_file.h"
 
@@ -23,6 +25,13 @@ struct TextureFigures {
   std::size_t charts = 0;  ///< pieces of the image
   double unseen = 0;       ///< share of the surface
 };
+
+/// The colours of a mesh of the hull, by its photographs: of its vertices. Notes are added to `messages`.
+std::vector<Color> colors_of_hull(const nef::Mesh& mesh, const Result& result, const nef::Monitor& monitor,
+                                  nef::Messages& messages);
+/// An image on its surface.
+nef::MeshTexture texture_of_hull(const nef::Mesh& mesh, const Result& result, const nef::Monitor& monitor,
+                                 nef::Messages& messages, TextureFigures* figures = nullptr);
 
 /// What was written: the file, its mesh if that has been decimated, and what there is to say of its texture.
 struct WrittenHull {

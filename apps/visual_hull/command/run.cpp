@@ -96,8 +96,7 @@ int check_scene(const Arguments& a, const Scene& scene, const Options& options) 
   std::string missing;
   nef::Messages notes;
   try {
-    images = images_of(scene, scene_folder(a.scene),
-                       a.images.empty() ? std::nullopt : std::optional<fs::path>(a.images), &notes);
+    images = images_of(scene, scene_folder(a.scene), images_folder(a), &notes);
   } catch (const nef::Error& error) {
     missing = error.what();
   }
@@ -144,8 +143,7 @@ int conclude(nef::Session& session, const Scene& scene, const Result& result) {
 
 // The scene as it was used: refined cameras, and the images that were found, relative to the file.
 void write_refined_scene(const Arguments& a, Scene scene, const Result& result) {
-  const std::vector<fs::path> images =
-      images_of(scene, scene_folder(a.scene), a.images.empty() ? std::nullopt : std::optional<fs::path>(a.images));
+  const std::vector<fs::path> images = images_of(scene, scene_folder(a.scene), images_folder(a));
   scene.origin = result.origin;
   if (result.refinement->accepted) scene.camera_error.reset();  // it was that of other cameras
   for (std::size_t i = 0; i < scene.views.size(); ++i) {

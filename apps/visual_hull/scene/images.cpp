@@ -170,6 +170,28 @@ std::vector<fs::path> images_of(const Scene& scene, const fs::path& folder, cons
   return files;
 }
 
+void leave_out_views(Scene& scene, const std::vector<std::string>& names, const fs::path& folder,
+                     const std::optional<fs::path>& images, nef::Messages* notes) {
+  if (scene.guessed) {
+    throw nef::InputError("views of a turntable whose camera is not known cannot be left out: its steps are equal");
+  }
+  for (const std::string& name : names) {
+    if (std::none_of(scene.views.begin(), scene.views.end(), [&](const View& view) { return view.name == name; })) {
+      throw nef::InputError("view " + name + " cannot be left out: the scene has no view of this name");
+    }
+  }
+  const std::vector<fs::path> files = images_of(scene, folder, images, notes);
+  std::vector<View> left;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    View& view = scene.views[i];
+    if (std::find(names.begin(), names.end(), view.name) != names.end()) continue;
+    if (!files[i].empty()) view.image = fs::absolute(files[i]);
+    left.push_back(std::move(view));
+  }
+  if (left.empty()) throw nef::InputError("all views are left out: without any there is no hull");
+  scene.views = std::move(left);
+}
+
 std::optional<ImageSize> size_of_image(const fs::path& folder, const std::string& name) {
   if (name.empty()) return std::nullopt;
   const auto file = look_up_image({folder}, name);

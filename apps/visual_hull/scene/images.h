@@ -39,6 +39,12 @@ std::vector<std::filesystem::path> images_of(const Scene& scene, const std::file
                                              const std::optional<std::filesystem::path>& images,
                                              nef::Messages* notes = nullptr);
 
+/// Takes the views of these names out of a scene. Those that stay have the images that images_of finds for all of them,
+/// as absolute paths. Throws InputError for a name that no view has, where no view would be left, for a turntable whose
+/// camera is to be found (Scene::guessed), whose steps are equal then; and what images_of does.
+void leave_out_views(Scene& scene, const std::vector<std::string>& names, const std::filesystem::path& folder,
+                     const std::optional<std::filesystem::path>& images, nef::Messages* notes = nullptr);
+
 /// The size of an image that a scene calls `name`, if it is there and can be read.
 std::optional<ImageSize> size_of_image(const std::filesystem::path& folder, const std::string& name);
 

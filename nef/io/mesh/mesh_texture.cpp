@@ -18,8 +18,6 @@ std::string beside(const std::string& path, const std::string& name) {
   return (fs::path(path).parent_path() / name).string();
 }
 
-bool has_image_inside(const std::string& extension) { return extension == "glb" || extension == "3mf"; }
-
 [[noreturn]] void refuse_texture(const std::string& path, const std::string& what) {
   throw FileError(FileProblem::kUnsupported, path + ": " + what);
 }
@@ -49,6 +47,8 @@ TexturedVertices textured_vertices(const Mesh& mesh, const MeshTexture& texture)
   }
   return result;
 }
+
+bool has_image_inside(const std::string& extension) { return extension == "glb" || extension == "3mf"; }
 
 void require_texture(const std::string& path, const Mesh& mesh, const MeshTexture& texture,
                      const std::string& extension) {

@@ -34,6 +34,9 @@ struct TexturedVertices {
 /// O(n log n).
 TexturedVertices textured_vertices(const Mesh& mesh, const MeshTexture& texture);
 
+/// True if files of this extension hold the image of a texture themselves; else it is a file beside them.
+bool has_image_inside(const std::string& extension);
+
 /// Throws FileError if a texture cannot be written with a mesh in this format and to this path: the format has none,
 /// faces are not triangles, corners are missing, or the format stores the image in a file beside `path`, which is not a
 /// named file.

@@ -320,13 +320,24 @@ nef::visual_hull::Scene turntable_of(const py::tuple& given) {
       {count, given[1].cast<std::vector<double>>(), given[2].cast<double>(), given[3].cast<double>()});
 }
 
-py::dict from_file(const std::string& path, const nef::visual_hull::Options& options, const std::string& matrices,
-                   const std::string& up, const py::object& turntable, bool textured, const py::object& progress) {
+py::dict from_file(const std::string& path, nef::visual_hull::Options options, const std::string& matrices,
+                   const std::string& up, const py::object& turntable, const std::vector<std::string>& without,
+                   bool textured, const py::object& progress) {
   const std::filesystem::path file(path);
   nef::visual_hull::Scene scene =
       turntable.is_none() ? nef::visual_hull::read_scene(file, {matrices}) : turntable_of(py::tuple(turntable));
   if (!up.empty()) nef::visual_hull::turn_up(scene, up);
-  return compute(scene, nef::visual_hull::scene_folder(file).string(), options, textured, progress);
+  const std::filesystem::path folder = nef::visual_hull::scene_folder(file);
+  Messages notes;
+  if (!without.empty()) {
+    nef::visual_hull::leave_out_views(scene, without, folder, options.images, &notes);
+    options.images.reset();  // the views have theirs
+  }
+  py::dict result = compute(scene, folder.string(), options, textured, progress);
+  const auto more = result["notes"].cast<Messages>();
+  notes.insert(notes.end(), more.begin(), more.end());
+  result["notes"] = notes;
+  return result;
 }
 
 py::dict from_views(const std::vector<std::string>& names, const std::vector<std::string>& images,

@@ -307,6 +307,28 @@ TEST_CASE("Both ways write the same hull, the direct one is refused where it can
   CHECK_THAT(refused.output, Contains("use --way cones"));
 }
 
+TEST_CASE("Views that are left out by name leave the hull of the others") {
+  const Scratch s;
+  nlohmann::json scene = read_json(data("eight/eight.json"));
+  scene["cameras"].erase(5);
+  scene["cameras"].erase(1);
+  for (auto& camera : scene["cameras"]) camera["image"] = data("eight/" + camera["image"].get<std::string>());
+  const std::string others = (s.folder() / "others.nef").string();
+  const std::string without = (s.folder() / "without.nef").string();
+  const std::string names = " --without eight_05.png eight_01.png";
+  CHECK(run(s.write("others.json", scene.dump()).string() + " -q -o " + others).code == 0);
+  CHECK(run(data("eight/eight.json") + names + " -q -o " + without).code == 0);
+  CHECK(nef::equal(nef::read_polyhedron(without), nef::read_polyhedron(others)));
+  const Outcome checked = run(data("eight/eight.json") + names + " --check");
+  CHECK_THAT(checked.output, Contains("10 views") && !Contains("eight_05.png"));
+  const Outcome nobody = run(data("eight/eight.json") + " --without eight");
+  CHECK(nobody.code == 2);
+  CHECK_THAT(nobody.output, Contains("view eight cannot be left out"));
+  const Outcome frames = run(data("eight/eight.json") + " --without eight_01.png --frames a%d -o b%d.off");
+  CHECK(frames.code == 2);
+  CHECK_THAT(frames.output, Contains("--without is for one hull"));
+}
+
 TEST_CASE("A box that cuts the hull, and views that the frame cuts: both ways write the same hull") {
   const Scratch s;
   const std::filesystem::path folder = s.folder() / "elk";

@@ -117,6 +117,15 @@ TEST_CASE("Images of a folder go to views by number, or by the names that views 
   CHECK(names_of(images_of(listed, s.folder(), std::nullopt, &notes)) == as_listed);
   CHECK(notes.empty());
 
+  // A view that is left out leaves the images of the others as they are.
+  Scene some = scene_of_names({"a", "b", "c"});
+  leave_out_views(some, {"b"}, ".", s.folder());
+  CHECK(names_of(images_of(some, "/elsewhere", std::nullopt)) == std::vector<std::string>{"img1.png", "img10.png"});
+  CHECK_THROWS_WITH(leave_out_views(some, {"b"}, ".", std::nullopt), Contains("no view of this name"));
+  CHECK_THROWS_WITH(leave_out_views(some, {"a", "c"}, ".", std::nullopt), Contains("all views are left out"));
+  some.guessed = true;
+  CHECK_THROWS_WITH(leave_out_views(some, {"a"}, ".", std::nullopt), Contains("its steps are equal"));
+
   fs::create_directories(s.folder() / "padded");
   for (const char* name : {"img01.png", "img02.png", "img10.png"}) s.write("padded/" + std::string(name), "x");
   images_of(scene_of_names({"", "", ""}), s.folder() / "padded", std::nullopt, &notes);

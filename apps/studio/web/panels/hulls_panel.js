@@ -62,6 +62,7 @@ export class HullsPanel {
   async openFile(file) {
     this.scene = file;
     this.off.clear();
+    this.viewNames = [];
     this.overlay = null;
     byId("hulls-views").replaceChildren();
     this.#showScene();
@@ -105,6 +106,8 @@ export class HullsPanel {
       ["Time", `outlines ${secondsText(report.outlines_s)}, hull ${secondsText(report.op_s)}, ${secondsText(seconds)} until shown`]]);
     fillNotes(byId("hulls-notes"), report.notes);
     this.#showViews(report.views);
+    this.viewNames = report.views.map(({ name }) => name);
+    this.#showCommands();
     this.#showOverlay(report);
     const { suspect } = report;
     byId("hulls-suspect").textContent = suspect === null ? "" : `${report.views[suspect].name} disagrees with the other views.`;
@@ -160,16 +163,19 @@ export class HullsPanel {
   }
 
   #showCommands() {
-    const { scene, off, simplify, threshold, mask } = this.state;
+    const { scene, off, simplify, threshold, mask, colors } = this.state;
     const name = scene || "scene.json";
-    const how = [...(simplify && simplify !== "0" ? ["--simplify", simplify] : []), ...(threshold ? ["--threshold", threshold] : []), ...(mask ? ["--mask", mask] : [])];
-    const python = [JSON.stringify(name), ...(simplify && simplify !== "0" ? [`tolerance=${simplify}`] : []),
+    const without = off.map((view) => this.viewNames?.[view] ?? String(view));
+    const how = [...(without.length > 0 ? ["--without", ...without] : []), ...(simplify && simplify !== "0" ? ["--simplify", simplify] : []), ...(threshold ? ["--threshold", threshold] : []), ...(mask ? ["--mask", mask] : []),
+      ...({ vertices: ["--color"], texture: ["--texture"] }[colors] ?? [])];
+    const file = { plain: "hull.nef", vertices: "hull.ply", texture: "hull.glb" }[colors];
+    const python = [JSON.stringify(name), ...(without.length > 0 ? [`without=${JSON.stringify(without)}`] : []),
+      ...(colors === "texture" ? ["texture=True"] : []), ...(simplify && simplify !== "0" ? [`tolerance=${simplify}`] : []),
       ...(mask ? [`mask=${JSON.stringify(mask)}`] : []),
       ...(threshold ? [`threshold=${/^[\d.]+$/.test(threshold) ? threshold : JSON.stringify(threshold)}`] : [])];
-    const without = off.length > 0 ? "# all views: take those that are off out of the scene's file\n" : "";
     showCommands(byId("hulls-commands"), [
-      ["Command line", `${without}${shellLine("visual_hull", name, "-o", "hull.nef", ...how)}`],
-      ["Python", `${without}import nef.visual_hull\nhull = nef.visual_hull.read(${python.join(", ")})`],
+      ["Command line", shellLine("visual_hull", name, "-o", file, ...how)],
+      ["Python", `import nef.visual_hull\nhull = nef.visual_hull.read(${python.join(", ")})${colors === "texture" ? '\nhull.texture.write("hull.glb")' : ""}`],
     ]);
   }
 }

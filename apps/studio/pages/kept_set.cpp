@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/studio/pages/kept_set.h"
 
+#include "nef/io/file_bytes.h"
 #include "nef/io/mesh/mesh_formats.h"
 #include "nef/io/mesh/mesh_texture.h"
 

@@ -34,5 +34,5 @@ if [ -n "$package" ]; then
   # Debian's Sphinx belongs to Debian's Python, whichever comes first on the PATH.
   PYTHONPATH=$package /usr/bin/python3 -m sphinx -q -b html python/reference "$site/python"
 fi
-python3 -B scripts/check_site.py "$site"
+python3 -B scripts/checks/check_site.py "$site"
 echo "docs: $site/index.html"

@@ -14,7 +14,7 @@
 #include "apps/minkowski/minkowski.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/io/mesh/mesh_reader.h"
-#include "tests/support/minkowski_shapes.h"
+#include "tests/support/shapes/minkowski_shapes.h"
 #include "tests/support/union_orders.h"
 #ifdef NEF_BENCH_CGAL
 #include "bench/minkowski/cgal_peer.h"

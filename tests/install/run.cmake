@@ -122,7 +122,7 @@ endif()
 # The pages link to what is installed.
 if(PYTHON AND NOT SHARED)
   file(GLOB pages ${WORK}/installed/share/doc/libnef-dev)
-  run(${PYTHON} -B ${SOURCE}/../../../scripts/check_sources.py ${pages})
+  run(${PYTHON} -B ${SOURCE}/../../../scripts/checks/check_sources.py ${pages})
 endif()
 
 # The projects of the tutorials, from their pages.

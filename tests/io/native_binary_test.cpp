@@ -15,7 +15,7 @@
 #include "nef/io/native/native_binary.h"
 #include "nef/io/native/native_format.h"
 #include "nef/io/polyhedron_file.h"
-#include "tests/support/random_polyhedra.h"
+#include "tests/support/shapes/random_polyhedra.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nef {

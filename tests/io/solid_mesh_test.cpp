@@ -11,7 +11,7 @@
 #include "nef/io/polyhedron_file.h"
 #include "nef/mesh/recenter.h"
 #include "nef/operators.h"
-#include "tests/support/two_manifold.h"
+#include "tests/support/shapes/two_manifold.h"
 
 namespace nef {
 namespace {

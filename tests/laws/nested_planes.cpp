@@ -6,7 +6,7 @@
 
 #include "tests/laws/laws.h"
 #include "tests/support/literals.h"
-#include "tests/support/nested_planes/recipe_maker.h"
+#include "tests/support/shapes/nested_planes/recipe_maker.h"
 
 namespace nef::test {
 namespace {

@@ -9,8 +9,8 @@
 #include "apps/minkowski/convolution/arrangement/facet_segments.h"
 #include "apps/minkowski/union/face_chord.h"
 #include "apps/minkowski/union/face_remains.h"
-#include "tests/support/next_to_zero.h"
-#include "tests/support/worst_error.h"
+#include "tests/support/numbers/next_to_zero.h"
+#include "tests/support/numbers/worst_error.h"
 
 namespace nef::minkowski::error_bounds_test {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Sums at sizes where products of doubles overflow or vanish, against the scaled sum at an ordinary size.
-#include "tests/support/magnitudes.h"
+#include "tests/support/numbers/magnitudes.h"
 
 #include <catch2/catch.hpp>
 #include <vector>
 
 #include "apps/minkowski/minkowski.h"
-#include "tests/support/machine_parts.h"
+#include "tests/support/shapes/machine_parts.h"
 #include "tests/support/union_orders.h"
 
 namespace nef::minkowski::magnitudes_test {

@@ -12,8 +12,8 @@
 #include "nef/geometry/vectors.h"
 #include "nef/io/mesh/mesh_reader.h"
 #include "tests/support/literals.h"
-#include "tests/support/minkowski_shapes.h"
 #include "tests/support/paths.h"
+#include "tests/support/shapes/minkowski_shapes.h"
 #include "tests/support/union_orders.h"
 
 namespace {

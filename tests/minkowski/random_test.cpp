@@ -13,9 +13,9 @@
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/union/solid_union.h"
 #include "nef/construct/convex_hull.h"
-#include "tests/support/fixed_cases.h"
-#include "tests/support/hard_points.h"
-#include "tests/support/random_polyhedra.h"
+#include "tests/support/numbers/hard_points.h"
+#include "tests/support/shapes/fixed_cases.h"
+#include "tests/support/shapes/random_polyhedra.h"
 #include "tests/support/union_orders.h"
 
 namespace {

@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "tests/support/paths.h"
-#include "tests/support/random_polyhedra.h"
+#include "tests/support/shapes/random_polyhedra.h"
 
 namespace nef::test {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Collisions at sizes where products of doubles overflow or vanish, against the same at an ordinary size.
-#include "tests/support/magnitudes.h"
+#include "tests/support/numbers/magnitudes.h"
 
 #include <catch2/catch.hpp>
 #include <random>
@@ -11,7 +11,7 @@
 #include "apps/planner/rigid/motion_checker.h"
 #include "apps/planner/turning/turning_collision.h"
 #include "tests/planner/scene_helpers.h"
-#include "tests/support/fixed_cases.h"
+#include "tests/support/shapes/fixed_cases.h"
 
 namespace nef::planner::test::magnitudes {
 namespace {

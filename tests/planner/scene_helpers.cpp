@@ -6,7 +6,7 @@
 
 #include "apps/minkowski/minkowski.h"
 #include "nef/construct/construct.h"
-#include "tests/support/fixed_cases.h"
+#include "tests/support/shapes/fixed_cases.h"
 
 namespace nef::planner::test {
 

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "apps/planner/path/question.h"
-#include "tests/support/oblique_rotation.h"
 #include "tests/support/paths.h"
+#include "tests/support/shapes/oblique_rotation.h"
 
 namespace nef::planner::test {
 

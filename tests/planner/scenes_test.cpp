@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Every scene and assembly that is shipped: the command `planner` and the library say the same, whatever the options.
-// python/tests/test_scenes.py compares the command with the package in the same way.
+// python/tests/apps/test_scenes.py compares the command with the package in the same way.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>

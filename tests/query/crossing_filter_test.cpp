@@ -12,8 +12,8 @@
 #include "nef/base/fast_path.h"
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
-#include "tests/support/fixed_cases.h"
-#include "tests/support/random_polyhedra.h"
+#include "tests/support/shapes/fixed_cases.h"
+#include "tests/support/shapes/random_polyhedra.h"
 
 namespace {
 

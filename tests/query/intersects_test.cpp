@@ -9,8 +9,8 @@
 #include <catch2/catch.hpp>
 
 #include "nef/construct/construct.h"
-#include "tests/support/fixed_cases.h"
-#include "tests/support/random_polyhedra.h"
+#include "tests/support/shapes/fixed_cases.h"
+#include "tests/support/shapes/random_polyhedra.h"
 
 namespace {
 

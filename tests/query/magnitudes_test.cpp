@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Questions about sets at sizes where products of doubles overflow or vanish, against the same at an ordinary size.
-#include "tests/support/magnitudes.h"
+#include "tests/support/numbers/magnitudes.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

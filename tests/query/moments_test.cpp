@@ -8,7 +8,7 @@
 #include "nef/base/error.h"
 #include "nef/query/measures/approximate_volume.h"
 #include "tests/laws/laws.h"
-#include "tests/support/oblique_rotation.h"
+#include "tests/support/shapes/oblique_rotation.h"
 
 namespace nef {
 namespace {

@@ -9,7 +9,7 @@
 #include "nef/construct/construct.h"
 #include "nef/distance/distance.h"
 #include "nef/polyhedron.h"
-#include "tests/support/magnitudes.h"
+#include "tests/support/numbers/magnitudes.h"
 
 namespace nef {
 namespace {

@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "apps/minkowski/minkowski.h"
-#include "tests/support/random_polyhedra.h"
+#include "tests/support/shapes/random_polyhedra.h"
 
 namespace nef::test {
 

@@ -12,8 +12,9 @@ const folder = dirname(fileURLToPath(import.meta.url));
 const read = (path) => readFileSync(path, "utf8");
 
 // Each after those that it uses at its top level.
-const viewer = ["scene_data.js", "vectors.js", "camera_control.js", "frame_pacer.js", "materials.js", "layer_view.js", "coarse_view.js", "smooth_frame.js",
-  "section.js", "picking.js", "sphere_regions.js", "sphere_view.js", "item_text.js", "panel.js", "viewer.js"].map((name) => join(folder, name));
+const viewer = ["scene_data.js", "vectors.js", "camera_control.js", "draw/frame_pacer.js", "draw/materials.js", "draw/layer_view.js",
+  "draw/coarse_view.js", "draw/smooth_frame.js", "draw/section.js", "picking.js", "sphere_regions.js", "sphere_view.js", "item_text.js",
+  "panel.js", "viewer.js"].map((name) => join(folder, name));
 
 // three ends with one export statement `export{a as B,...};`, which becomes an object.
 function threeAsObject(source) {

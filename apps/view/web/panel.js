@@ -2,7 +2,7 @@
 //
 // The controls beside the scene.
 import { escaped } from "./item_text.js";
-import { INK_HEX, ORANGE_HEX } from "./layer_view.js";
+import { INK_HEX, ORANGE_HEX } from "./draw/layer_view.js";
 
 export const byId = (id) => document.getElementById(id);
 

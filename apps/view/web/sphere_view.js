@@ -3,8 +3,8 @@
 // The sphere map of a vertex on a canvas of its own: a ball whose regions are sfaces, with arcs and dots on it.
 import * as THREE from "three";
 import { CameraControl } from "./camera_control.js";
-import { sharedUniforms } from "./materials.js";
-import { dotColors, dotMesh, lineColor, lineMesh, rgbOf } from "./layer_view.js";
+import { sharedUniforms } from "./draw/materials.js";
+import { dotColors, dotMesh, lineColor, lineMesh, rgbOf } from "./draw/layer_view.js";
 import { regionAt, sphereMap } from "./sphere_regions.js";
 import { dot3, scale3 } from "./vectors.js";
 

@@ -4,16 +4,16 @@
 // studio shows one after the other.
 import * as THREE from "three";
 import { CameraControl } from "./camera_control.js";
-import { CoarseView, MOST_TRIANGLES, triangleCount } from "./coarse_view.js";
-import { FramePacer } from "./frame_pacer.js";
+import { CoarseView, MOST_TRIANGLES, triangleCount } from "./draw/coarse_view.js";
+import { FramePacer } from "./draw/frame_pacer.js";
 import { itemText, markBadge, sphereItemText } from "./item_text.js";
-import { LayerView, dotMesh, lineMesh } from "./layer_view.js";
-import { sharedUniforms } from "./materials.js";
+import { LayerView, dotMesh, lineMesh } from "./draw/layer_view.js";
+import { sharedUniforms } from "./draw/materials.js";
 import { byId, makeLayerRows, makeLegend } from "./panel.js";
 import { Picker } from "./picking.js";
 import { originOf, ORIGIN_OWN } from "./scene_data.js";
-import { Section } from "./section.js";
-import { SmoothFrame } from "./smooth_frame.js";
+import { Section } from "./draw/section.js";
+import { SmoothFrame } from "./draw/smooth_frame.js";
 import { SphereView } from "./sphere_view.js";
 
 THREE.ColorManagement.enabled = false;

@@ -10,7 +10,7 @@
 #include "apps/planner/path/question.h"
 #include "fuzz/fuzzer.h"
 #include "nef/construct/construct.h"
-#include "tests/support/oblique_rotation.h"
+#include "tests/support/shapes/oblique_rotation.h"
 
 namespace nef::fuzz {
 namespace {

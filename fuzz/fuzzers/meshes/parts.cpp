@@ -8,7 +8,7 @@
 #include "fuzz/fuzzer.h"
 #include "nef/construct/construct.h"
 #include "nef/distance/intersects.h"
-#include "tests/support/machine_parts.h"
+#include "tests/support/shapes/machine_parts.h"
 
 namespace nef::fuzz {
 namespace {

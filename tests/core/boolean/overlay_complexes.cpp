@@ -6,7 +6,7 @@
 #include "nef/location/query_structure.h"
 #include "nef/sphere_map/label_function.h"
 #include "tests/laws/laws.h"
-#include "tests/support/ball.h"
+#include "tests/support/shapes/ball.h"
 
 namespace nef::test {
 namespace {

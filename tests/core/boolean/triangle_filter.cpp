@@ -8,8 +8,8 @@
 #include <random>
 
 #include "nef/base/fast_path.h"
-#include "tests/support/fixed_cases.h"
-#include "tests/support/magnitudes.h"
+#include "tests/support/numbers/magnitudes.h"
+#include "tests/support/shapes/fixed_cases.h"
 
 namespace nef::test {
 namespace {

@@ -15,7 +15,7 @@
 #include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/surface/surface_patches.h"
 #include "nef/polyhedron.h"
-#include "tests/support/fixed_cases.h"
+#include "tests/support/shapes/fixed_cases.h"
 
 namespace nef {
 namespace {

@@ -12,7 +12,7 @@
 #include "nef/query/measures/approximate_volume.h"
 #include "nef/synthesis/complex_builder.h"
 #include "nef/validation/validate.h"
-#include "tests/support/oblique_rotation.h"
+#include "tests/support/shapes/oblique_rotation.h"
 
 namespace nef::test {
 namespace {

@@ -9,7 +9,7 @@
 #include "nef/construct/round_shapes.h"
 #include "nef/io/native/native_binary.h"
 #include "nef/polyhedron.h"
-#include "tests/support/random_polyhedra.h"
+#include "tests/support/shapes/random_polyhedra.h"
 
 namespace nef::test {
 namespace {

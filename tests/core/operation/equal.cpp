@@ -5,8 +5,8 @@
 
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
-#include "tests/support/ball.h"
 #include "tests/support/literals.h"
+#include "tests/support/shapes/ball.h"
 
 namespace nef::test {
 namespace {

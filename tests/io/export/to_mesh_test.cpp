@@ -11,7 +11,7 @@
 #include "nef/export/to_mesh.h"
 #include "nef/mesh/mesh_check.h"
 #include "nef/mesh/polygon/triangulate.h"
-#include "tests/support/random_polyhedra.h"
+#include "tests/support/shapes/random_polyhedra.h"
 
 namespace nef {
 namespace {

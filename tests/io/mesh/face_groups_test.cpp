@@ -17,7 +17,7 @@
 #include "nef/io/mesh/mend_rounded.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/operation/label_inputs.h"
-#include "tests/support/ball.h"
+#include "tests/support/shapes/ball.h"
 #include "tests/support/temporary_folder.h"
 
 namespace nef::test {

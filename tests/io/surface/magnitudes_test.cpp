@@ -12,8 +12,8 @@
 
 #include "nef/construct/convex_hull.h"
 #include "nef/mesh/mesh_check.h"
-#include "tests/support/machine_parts.h"
-#include "tests/support/magnitudes.h"
+#include "tests/support/numbers/magnitudes.h"
+#include "tests/support/shapes/machine_parts.h"
 
 namespace nef::test {
 namespace {

@@ -11,7 +11,7 @@
 #include "nef/geometry/vectors.h"
 #include "nef/io/number_text.h"
 #include "nef/mesh/mesh_points.h"
-#include "tests/support/worst_error.h"
+#include "tests/support/numbers/worst_error.h"
 
 namespace nef::test {
 

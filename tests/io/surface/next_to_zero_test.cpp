@@ -7,7 +7,7 @@
 
 #include "nef/mesh/mesh_check.h"
 #include "nef/polyhedron.h"
-#include "tests/support/next_to_zero.h"
+#include "tests/support/numbers/next_to_zero.h"
 
 namespace nef::test {
 namespace {

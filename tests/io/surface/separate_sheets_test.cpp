@@ -11,7 +11,7 @@
 #include "nef/export/to_mesh.h"
 #include "nef/operators.h"
 #include "nef/query/measure.h"
-#include "tests/support/two_manifold.h"
+#include "tests/support/shapes/two_manifold.h"
 
 namespace nef {
 namespace {

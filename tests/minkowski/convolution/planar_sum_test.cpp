@@ -14,10 +14,10 @@
 #include "apps/minkowski/planar/covered_cells.h"
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
-#include "tests/support/fixed_cases.h"
 #include "tests/support/literals.h"
-#include "tests/support/machine_parts.h"
-#include "tests/support/random_polyhedra.h"
+#include "tests/support/shapes/fixed_cases.h"
+#include "tests/support/shapes/machine_parts.h"
+#include "tests/support/shapes/random_polyhedra.h"
 
 namespace {
 

@@ -11,11 +11,11 @@
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/morphology.h"
 #include "nef/distance/intersects.h"
-#include "tests/support/fixed_cases.h"
-#include "tests/support/hard_points.h"
 #include "tests/support/literals.h"
-#include "tests/support/minkowski_shapes.h"
-#include "tests/support/random_polyhedra.h"
+#include "tests/support/numbers/hard_points.h"
+#include "tests/support/shapes/fixed_cases.h"
+#include "tests/support/shapes/minkowski_shapes.h"
+#include "tests/support/shapes/random_polyhedra.h"
 #include "tests/support/sums_two_ways.h"
 
 namespace {

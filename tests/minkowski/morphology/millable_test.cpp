@@ -17,8 +17,8 @@
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
-#include "tests/support/fixed_cases.h"
 #include "tests/support/literals.h"
+#include "tests/support/shapes/fixed_cases.h"
 
 namespace {
 

@@ -9,9 +9,9 @@
 #include "apps/minkowski/morphology.h"
 #include "apps/program/expression/expression.h"
 #include "nef/geometry/vectors.h"
-#include "tests/support/hard_points.h"
 #include "tests/support/literals.h"
-#include "tests/support/random_polyhedra.h"
+#include "tests/support/numbers/hard_points.h"
+#include "tests/support/shapes/random_polyhedra.h"
 
 namespace {
 

@@ -9,10 +9,10 @@
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/sum/fixed_obstacles.h"
 #include "nef/construct/convex_hull.h"
-#include "tests/support/fixed_cases.h"
 #include "tests/support/literals.h"
-#include "tests/support/minkowski_shapes.h"
-#include "tests/support/random_polyhedra.h"
+#include "tests/support/shapes/fixed_cases.h"
+#include "tests/support/shapes/minkowski_shapes.h"
+#include "tests/support/shapes/random_polyhedra.h"
 
 namespace {
 

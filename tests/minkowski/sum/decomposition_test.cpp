@@ -11,8 +11,8 @@
 #include "nef/construct/convex_hull.h"
 #include "nef/io/mesh/mesh_reader.h"
 #include "tests/support/literals.h"
-#include "tests/support/minkowski_shapes.h"
-#include "tests/support/next_to_zero.h"
+#include "tests/support/numbers/next_to_zero.h"
+#include "tests/support/shapes/minkowski_shapes.h"
 
 namespace {
 

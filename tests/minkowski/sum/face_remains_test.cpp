@@ -15,7 +15,7 @@
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
 #include "tests/support/literals.h"
-#include "tests/support/machine_parts.h"
+#include "tests/support/shapes/machine_parts.h"
 
 namespace {
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "apps/minkowski/minkowski.h"
-#include "tests/support/hard_points.h"
 #include "tests/support/literals.h"
-#include "tests/support/minkowski_shapes.h"
+#include "tests/support/numbers/hard_points.h"
+#include "tests/support/shapes/minkowski_shapes.h"
 #include "tests/support/union_orders.h"
 
 namespace {

@@ -9,7 +9,7 @@
 #include "apps/minkowski/sum/regional_sum.h"
 #include "nef/base/error.h"
 #include "tests/support/literals.h"
-#include "tests/support/random_polyhedra.h"
+#include "tests/support/shapes/random_polyhedra.h"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include "nef/construct/construct.h"
 #include "nef/geometry/vectors.h"
 #include "tests/planner/scene_helpers.h"
-#include "tests/support/fixed_cases.h"
+#include "tests/support/shapes/fixed_cases.h"
 
 namespace nef::planner::test {
 namespace {

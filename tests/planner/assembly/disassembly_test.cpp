@@ -14,9 +14,9 @@
 #include "apps/planner/assembly/free_directions.h"
 #include "apps/program/reports/exact_json.h"
 #include "tests/planner/command_helpers.h"
-#include "tests/support/fixed_cases.h"
-#include "tests/support/oblique_rotation.h"
 #include "tests/support/report_shape.h"
+#include "tests/support/shapes/fixed_cases.h"
+#include "tests/support/shapes/oblique_rotation.h"
 
 namespace nef::planner::test {
 namespace {

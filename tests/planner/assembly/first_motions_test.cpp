@@ -10,7 +10,7 @@
 
 #include "nef/geometry/integer_vector.h"
 #include "nef/geometry/vectors.h"
-#include "tests/support/fixed_cases.h"
+#include "tests/support/shapes/fixed_cases.h"
 
 namespace nef::planner::test {
 namespace {

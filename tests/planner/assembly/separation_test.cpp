@@ -11,7 +11,7 @@
 
 #include "apps/planner/assembly/disassembly.h"
 #include "tests/planner/command_helpers.h"
-#include "tests/support/fixed_cases.h"
+#include "tests/support/shapes/fixed_cases.h"
 
 namespace nef::planner::test {
 namespace {

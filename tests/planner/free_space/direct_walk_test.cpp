@@ -8,7 +8,7 @@
 
 #include "apps/planner/free_space/segments.h"
 #include "tests/planner/scene_helpers.h"
-#include "tests/support/fixed_cases.h"
+#include "tests/support/shapes/fixed_cases.h"
 
 namespace nef::planner::test {
 namespace {

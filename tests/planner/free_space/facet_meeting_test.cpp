@@ -11,8 +11,8 @@
 #include "apps/planner/intersection/item_tree.h"
 #include "nef/construct/construct.h"
 #include "nef/polyhedron.h"
-#include "tests/support/next_to_zero.h"
-#include "tests/support/worst_error.h"
+#include "tests/support/numbers/next_to_zero.h"
+#include "tests/support/numbers/worst_error.h"
 
 namespace nef::planner::test {
 namespace {

@@ -7,7 +7,7 @@
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/ompl/translation_planning.h"
 #include "tests/planner/scene_helpers.h"
-#include "tests/support/fixed_cases.h"
+#include "tests/support/shapes/fixed_cases.h"
 
 namespace nef::planner::test {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "nef/geometry/vectors.h"
-#include "tests/support/worst_error.h"
+#include "tests/support/numbers/worst_error.h"
 
 namespace nef::planner::test::contact_products {
 namespace {

@@ -15,8 +15,8 @@
 #include "nef/construct/convex_hull.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
-#include "tests/support/ball.h"
 #include "tests/support/report_shape.h"
+#include "tests/support/shapes/ball.h"
 
 namespace nef::planner::test::range_of_motion {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "nef/base/union_find.h"
 #include "tests/planner/scene_table.h"
-#include "tests/support/fixed_cases.h"
+#include "tests/support/shapes/fixed_cases.h"
 
 namespace nef::planner::test {
 namespace {

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "tests/planner/command_helpers.h"
-#include "tests/support/fixed_cases.h"
+#include "tests/support/shapes/fixed_cases.h"
 
 namespace nef::planner::test {
 namespace {

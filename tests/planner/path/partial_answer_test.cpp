@@ -11,7 +11,7 @@
 #include "nef/io/mesh/mesh_writer.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
-#include "tests/support/minkowski_shapes.h"
+#include "tests/support/shapes/minkowski_shapes.h"
 
 namespace nef::planner::test {
 namespace {

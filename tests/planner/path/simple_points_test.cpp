@@ -12,7 +12,7 @@
 #include "nef/construct/construct.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
-#include "tests/support/fixed_cases.h"
+#include "tests/support/shapes/fixed_cases.h"
 
 namespace nef::planner::test {
 namespace {

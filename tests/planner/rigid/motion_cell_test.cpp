@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/support/worst_error.h"
+#include "tests/support/numbers/worst_error.h"
 
 namespace nef::planner::test::motion_cell {
 namespace {

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "nef/base/fast_path.h"
-#include "tests/support/next_to_zero.h"
+#include "tests/support/numbers/next_to_zero.h"
 
 namespace nef::planner::test {
 

@@ -19,7 +19,7 @@
 #include "nef/base/timing/time_limit.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
-#include "tests/support/fixed_cases.h"
+#include "tests/support/shapes/fixed_cases.h"
 
 namespace nef::planner::test::rigid_planning {
 namespace {

@@ -10,7 +10,7 @@
 #include "apps/planner/search/search.h"
 #include "nef/construct/construct.h"
 #include "tests/planner/scene_helpers.h"
-#include "tests/support/fixed_cases.h"
+#include "tests/support/shapes/fixed_cases.h"
 
 namespace nef::planner::test {
 namespace {

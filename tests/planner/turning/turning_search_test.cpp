@@ -17,7 +17,7 @@
 #include "nef/geometry/vectors.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
-#include "tests/support/fixed_cases.h"
+#include "tests/support/shapes/fixed_cases.h"
 
 namespace nef::planner::test {
 namespace {

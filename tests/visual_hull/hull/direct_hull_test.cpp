@@ -6,7 +6,7 @@
 #include "apps/visual_hull/cones/bounds.h"
 #include "apps/visual_hull/cones/intersection.h"
 #include "nef/polyhedron.h"
-#include "tests/support/magnitudes.h"
+#include "tests/support/numbers/magnitudes.h"
 #include "tests/support/paths.h"
 #include "tests/visual_hull/helpers.h"
 

@@ -3,7 +3,7 @@
 // Images of points in doubles against the exact ones, where the error is worst.
 #include "apps/visual_hull/viewing_edges/edge_view.h"
 
-#include "tests/support/worst_error.h"
+#include "tests/support/numbers/worst_error.h"
 #include "tests/visual_hull/helpers.h"
 
 namespace nef::visual_hull {

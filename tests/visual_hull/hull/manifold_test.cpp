@@ -5,7 +5,7 @@
 
 #include "nef/io/mesh/mesh_reader.h"
 #include "tests/support/paths.h"
-#include "tests/support/two_manifold.h"
+#include "tests/support/shapes/two_manifold.h"
 #include "tests/visual_hull/command/run_command.h"
 #include "tests/visual_hull/helpers.h"
 #include "tests/visual_hull/scratch.h"

@@ -6,7 +6,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "tests/support/next_to_zero.h"
+#include "tests/support/numbers/next_to_zero.h"
 
 namespace nef::visual_hull {
 namespace {

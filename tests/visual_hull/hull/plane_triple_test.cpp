@@ -6,8 +6,8 @@
 #include <catch2/catch.hpp>
 
 #include "nef/geometry/vectors.h"
-#include "tests/support/next_to_zero.h"
-#include "tests/support/worst_error.h"
+#include "tests/support/numbers/next_to_zero.h"
+#include "tests/support/numbers/worst_error.h"
 
 namespace nef::visual_hull {
 namespace {

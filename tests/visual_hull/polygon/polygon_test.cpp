@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "tests/support/next_to_zero.h"
+#include "tests/support/numbers/next_to_zero.h"
 
 namespace nef::visual_hull::test {
 

@@ -9,7 +9,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "nef/base/error.h"
-#include "tests/support/fixed_cases.h"
+#include "tests/support/shapes/fixed_cases.h"
 #include "tests/visual_hull/refine/camera_difference.h"
 #include "tests/visual_hull/refine/rendered.h"
 

@@ -8,7 +8,7 @@
 
 #include "apps/visual_hull/silhouette/opacity.h"
 #include "apps/visual_hull/silhouette/silhouette.h"
-#include "tests/support/fixed_cases.h"
+#include "tests/support/shapes/fixed_cases.h"
 #include "tests/visual_hull/helpers.h"
 
 namespace nef::visual_hull {

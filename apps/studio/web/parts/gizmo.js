@@ -3,7 +3,7 @@
 // Handles in the view that move, turn and scale something: arrows along the axes, rings about them, a dot between them.
 import * as THREE from "three";
 import { decimalNear } from "../exact.js";
-import { dotMesh, lineMesh } from "../../../view/web/layer_view.js";
+import { dotMesh, lineMesh } from "../../../view/web/draw/layer_view.js";
 
 const AXIS_NAMES = ["x", "y", "z"];
 const AXIS_COLORS = [[214, 48, 49], [32, 150, 70], [40, 90, 220]];

@@ -11,7 +11,7 @@ import pytest
 
 import nef
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+ROOT = pathlib.Path(__file__).resolve().parents[3]
 ASSEMBLIES = sorted((ROOT / "data" / "planner" / "assembly").glob("*.json"))
 
 
@@ -99,7 +99,7 @@ def test_range_of_motion(needs, tmp_path):
 
 def test_robots_from_urdf_files(needs):
     planner = needs("planner")
-    folder = pathlib.Path(__file__).resolve().parents[2] / "data/planner/linkage"
+    folder = pathlib.Path(__file__).resolve().parents[3] / "data/planner/linkage"
     if not planner.reads_urdf():
         with pytest.raises(nef.InputError, match="liburdfdom-dev"):
             planner.Linkage.read(folder / "crane.urdf")
@@ -120,7 +120,7 @@ def test_paths_of_linkages_are_those_of_the_program(needs, tmp_path):
     planner = needs("planner")
     if not planner.reads_urdf():
         return
-    folder = pathlib.Path(__file__).resolve().parents[2] / "data/planner/linkage"
+    folder = pathlib.Path(__file__).resolve().parents[3] / "data/planner/linkage"
     crane = planner.Linkage.read(folder / "crane.urdf", folder / "crane.srdf")
     box = nef.box((3, -1, 1), (4, 1, 3))
     half = math.pi / 2

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// node scripts/studio_pictures.mjs NEF: makes the pictures of docs/studio.md, docs/pictures/studio_*.png, in a headless
+// node scripts/pictures/studio_pictures.mjs NEF: makes the pictures of docs/studio.md, docs/pictures/studio_*.png, in a headless
 // Chromium from data of this folder.
 import { spawn } from "node:child_process";
 import { copyFileSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { Browser, findChromium } from "../tests/view/browser/chromium.mjs";
+import { Browser, findChromium } from "../../tests/view/browser/chromium.mjs";
 
 const [nef] = process.argv.slice(2);
-const project = join(dirname(fileURLToPath(import.meta.url)), "..");
+const project = join(dirname(fileURLToPath(import.meta.url)), "../..");
 const root = mkdtempSync(join(tmpdir(), "nef-studio-pictures-"));
 copyFileSync(join(project, "data", "planner", "s1_tight_hole.json"), join(root, "s1_tight_hole.json"));
 

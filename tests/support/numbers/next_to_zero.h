@@ -7,7 +7,7 @@
 #include <array>
 #include <random>
 
-#include "tests/support/magnitudes.h"
+#include "tests/support/numbers/magnitudes.h"
 
 namespace nef::test {
 

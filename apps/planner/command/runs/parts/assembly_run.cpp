@@ -12,7 +12,7 @@
 #include "apps/planner/clearance/clear_disassembly.h"
 #include "apps/planner/command/findings.h"
 #include "apps/planner/command/report.h"
-#include "apps/planner/command/runs/assembly_view.h"
+#include "apps/planner/command/runs/parts/assembly_view.h"
 #include "apps/planner/proofs/inseparable_proof.h"
 #include "apps/program/reports/exact_json.h"
 #include "nef/base/error.h"

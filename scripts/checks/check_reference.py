@@ -3,7 +3,7 @@
 """Whether the C++ reference (docs/reference/Doxyfile) is complete: it has a main page, every public function and class has a
 description, and the functions that people look for first are in it. Skipped where Doxygen is not installed.
 
-Usage: scripts/check_reference.py WORK_DIRECTORY
+Usage: scripts/checks/check_reference.py WORK_DIRECTORY
 """
 import os
 import pathlib
@@ -12,7 +12,7 @@ import shutil
 import subprocess
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 EXPECTED = {"unite", "subtract", "make_box", "from_mesh", "read_polyhedron", "write_polyhedron", "to_mesh", "volume", "locate",
             "minkowski_sum", "compute"}
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The pictures of docs/meshes.md: for each cause a mesh, its faces coloured by what became of them, and the solid beside it.
 
-  scripts/mesh_pictures.py [--nef build/release/bin/nef] [--out docs/pictures]
+  scripts/pictures/mesh_pictures.py [--nef build/release/bin/nef] [--out docs/pictures]
 
 Each mesh is written here as polygons; `nef repair --record` says what became of its faces, and `nef picture` draws the groups and the
 result, cut open. A line for each picture tells which options were needed.

@@ -2,7 +2,7 @@
 //
 // One layer of the scene as objects of three.js.
 import * as THREE from "three";
-import { isolated, originOf, ORIGIN_BOX, ORIGIN_OWN } from "./scene_data.js";
+import { isolated, originOf, ORIGIN_BOX, ORIGIN_OWN } from "../scene_data.js";
 import { facetMaterial, lineMaterial, dotMaterial } from "./materials.js";
 
 export const INK_HEX = "#1f3a5a";

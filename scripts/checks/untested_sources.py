@@ -4,20 +4,20 @@
 test_overlay.py, below the application's folder of tests for a source of an application), and none that includes their
 header. Other tests reach them through what they are part of. Prints these sources and their number.
 
-Usage: scripts/untested_sources.py [--count]
+Usage: scripts/checks/untested_sources.py [--count]
 """
 import pathlib
 import re
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 APPS = sorted(path.name for path in (ROOT / "apps").iterdir() if path.is_dir())
 INCLUDE = re.compile(r'^#include "((?:nef|apps)/[^"]+)"', re.MULTILINE)
 
 
 def tests() -> list[pathlib.Path]:
     found = [path for kind in ("*.cpp", "*.h", "*.mjs") for path in (ROOT / "tests").rglob(kind)]
-    return sorted(found) + sorted((ROOT / "python/tests").glob("*.py"))
+    return sorted(found) + sorted((ROOT / "python/tests").rglob("*.py"))
 
 
 def owner(test: pathlib.Path) -> str:

@@ -12,7 +12,7 @@ import pytest
 import nef
 
 CUBE = nef.box((0, 0, 0), (1, 1, 1))
-ROOT = pathlib.Path(os.environ.get("NEF_SOURCE_DIR", pathlib.Path(__file__).parents[2]))
+ROOT = pathlib.Path(os.environ.get("NEF_SOURCE_DIR", pathlib.Path(__file__).parents[3]))
 
 
 def test_sums(needs):

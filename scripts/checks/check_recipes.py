@@ -3,7 +3,7 @@
 """What can be checked of the recipes in packaging/ without vcpkg, rattler-build and Homebrew: each can be parsed, names every library
 that CMake requires, and passes only options that CMake has; the port of vcpkg runs with stubs in place of vcpkg's functions.
 
-Usage: scripts/check_recipes.py
+Usage: scripts/checks/check_recipes.py
 """
 import json
 import pathlib
@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 PACKAGING = ROOT / "packaging"
 SOURCES = [ROOT / "nef", ROOT / "apps"]
 # What CMake looks for, by the words of find_package and find_path, and its name in vcpkg, conda-forge and Homebrew.
@@ -136,7 +136,7 @@ def homebrew_problems() -> list[str]:
 def main() -> int:
     unknown = required() - set(LIBRARIES)
     if unknown:
-        print(f"CMake looks for {', '.join(sorted(unknown))}; say in scripts/check_recipes.py what recipes call it")
+        print(f"CMake looks for {', '.join(sorted(unknown))}; say in scripts/checks/check_recipes.py what recipes call it")
         return 1
     problems = vcpkg_problems() + conda_problems() + homebrew_problems()
     known = cmake_options()

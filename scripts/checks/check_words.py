@@ -3,13 +3,13 @@
 """Whether messages and --help use plain words: looks through the string literals of the programs, the library and the Python
 binding for words that the project no longer uses, and prints each with the word to write instead. Exits 1 if there are any.
 
-Usage: scripts/check_words.py [FILE...]
+Usage: scripts/checks/check_words.py [FILE...]
 """
 import pathlib
 import re
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 SOURCES = ["apps", "nef", "python/binding", "python/nef"]
 
 # A word or phrase, and what to write instead.

@@ -2,13 +2,13 @@
 # Makes a release: builds and tests a clean clone, packs sources, Debian packages and a wheel, and writes notes and checksums
 # into release/VERSION. Publishes nothing; the last line says which tag to set.
 #
-# Usage: scripts/release.sh [--untested [TREE]]: --untested skips the tests, to try the packing; TREE is a build folder of this
+# Usage: scripts/release/release.sh [--untested [TREE]]: --untested skips the tests, to try the packing; TREE is a build folder of this
 # checkout, built already, whose programs are packed instead of those of the clone, to try it in two minutes.
 set -euo pipefail
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 root=$PWD
 if [ $# -gt 2 ] || { [ $# -ge 1 ] && [ "$1" != --untested ]; }; then
-  echo "usage: scripts/release.sh [--untested [TREE]]" >&2
+  echo "usage: scripts/release/release.sh [--untested [TREE]]" >&2
   exit 2
 fi
 tree=
@@ -24,7 +24,7 @@ if git rev-parse -q --verify "refs/tags/v$version" >/dev/null; then
   exit 1
 fi
 # What is new since the last release: the section of this version, or what is unreleased while packing is tried.
-notes=$(python3 scripts/release_notes.py "$version" ${1:+--or-unreleased})
+notes=$(python3 scripts/release/release_notes.py "$version" ${1:+--or-unreleased})
 
 source scripts/setup.sh
 install_missing "${nef_packages[@]}" python3-pip python3-wheel dpkg-dev
@@ -35,8 +35,8 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 git clone -q . "$work/nef"
 cd "$work/nef"
-python3 scripts/check_sources.py
-python3 scripts/check_recipes.py
+python3 scripts/checks/check_sources.py
+python3 scripts/checks/check_recipes.py
 if [ "${1:-}" != --untested ]; then bash scripts/test.sh; fi
 
 if [ -z "$tree" ]; then
@@ -55,7 +55,7 @@ for package in "$out"/*.deb; do dpkg-deb -x "$package" "$work/unpacked"; done
 "$work/unpacked/usr/bin/nef" eval 'box(0,0,0, 2,2,2) - box(1,1,1, 3,3,3)' --json >/dev/null
 NEF_PREFIX=$work/unpacked/usr python3 tests/docs/run_commands.py "$PWD" "$work/unpacked/usr/bin" "$work/tutorials" \
   "$PWD"/docs/tutorials/*.md | tail -20
-for folder in nef-programs libnef-dev; do python3 scripts/check_sources.py "$work/unpacked/usr/share/doc/$folder"; done
+for folder in nef-programs libnef-dev; do python3 scripts/checks/check_sources.py "$work/unpacked/usr/share/doc/$folder"; done
 "$python" -m pip install -q --no-deps --no-index --target "$work/installed" "$out"/*.whl
 (cd "$work" && PYTHONPATH=$work/installed "$python" -c 'import nef; print("wheel:", nef.__version__, nef.box((0, 0, 0), (1, 1, 1)).volume())')
 
@@ -66,5 +66,5 @@ files=(*.deb *.whl *.tar.gz NOTES.md)
 sha256sum "${files[@]}" >SHA256SUMS
 sha256sum --quiet -c SHA256SUMS
 ls -l
-echo "scripts/try_packages.sh release/$version tries them in a bare Debian 12 (as root)"
+echo "scripts/release/try_packages.sh release/$version tries them in a bare Debian 12 (as root)"
 echo "release/$version is made of $(git -C "$root" rev-parse --short HEAD); tag it: git tag -a v$version -F release/$version/NOTES.md"

@@ -2,7 +2,7 @@
 //
 // A part is at a pose of the world: what it did with others before, and first, within these, what it does now. Turns
 // are cut into small ones, between which moving straight looks like the motion itself, whatever point it turns about.
-#include "apps/planner/command/runs/assembly_view.h"
+#include "apps/planner/command/runs/parts/assembly_view.h"
 
 #include <algorithm>
 #include <cmath>

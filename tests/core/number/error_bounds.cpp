@@ -12,8 +12,8 @@
 
 #include "nef/geometry/direction_error.h"
 #include "nef/geometry/predicates.h"
-#include "tests/support/magnitudes.h"
-#include "tests/support/worst_error.h"
+#include "tests/support/numbers/magnitudes.h"
+#include "tests/support/numbers/worst_error.h"
 
 namespace nef::test {
 namespace {

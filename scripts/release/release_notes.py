@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Prints the section of CHANGELOG.md about a version.
 
-Usage: scripts/release_notes.py VERSION [--or-unreleased]: with the option, what is unreleased where the version has no section.
+Usage: scripts/release/release_notes.py VERSION [--or-unreleased]: with the option, what is unreleased where the version has no section.
 """
 import argparse
 import pathlib
@@ -21,7 +21,7 @@ def main() -> int:
     parser.add_argument("version")
     parser.add_argument("--or-unreleased", action="store_true")
     arguments = parser.parse_args()
-    found = sections((pathlib.Path(__file__).resolve().parent.parent / "CHANGELOG.md").read_text(encoding="utf-8"))
+    found = sections((pathlib.Path(__file__).resolve().parent.parent.parent / "CHANGELOG.md").read_text(encoding="utf-8"))
     notes = found.get(arguments.version) or (found.get("Unreleased") if arguments.or_unreleased else None)
     if not notes:
         print(f"release_notes.py: CHANGELOG.md has no section '## {arguments.version}'; name the unreleased one so",

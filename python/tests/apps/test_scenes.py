@@ -15,7 +15,7 @@ import pytest
 
 import nef
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
+ROOT = pathlib.Path(__file__).resolve().parents[3]
 SCENES = sorted((ROOT / "data" / "planner").glob("*.json")) + sorted((ROOT / "data" / "planner").glob("*/*.cfg"))
 
 #: options of the program, and the arguments of Scene.plan that mean the same
@@ -267,7 +267,7 @@ def replayed(text, folder):
     """The exit code of python/proofs/check.py, which shares nothing with the package."""
     file = folder / "a.proof"
     file.write_text(text)
-    checker = pathlib.Path(__file__).resolve().parents[1] / "proofs" / "check.py"
+    checker = pathlib.Path(__file__).resolve().parents[2] / "proofs" / "check.py"
     return subprocess.run([sys.executable, str(checker), str(file)], capture_output=True, check=False).returncode
 
 

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Whether every folder includes only what docs/architecture.md allows it to: of the core, folders before it in the list
-below; of the applications, the core and the applications that they are built on. Prints what breaks that; exits 1 if
-anything does.
+below; of the applications, the core and the applications that they are built on; and whether no folder has more modules
+than one takes in at a glance. Prints what breaks that; exits 1 if anything does.
 
-Usage: scripts/check_includes.py
+Usage: scripts/checks/check_includes.py
 """
+import collections
 import pathlib
 import re
 import sys
@@ -22,7 +23,10 @@ APPS = {"program": set(), "remeshing": set(), "view": set(), "minkowski": SHARED
         "visual_hull": SHARED, "planner": SHARED | {"minkowski"},
         "studio": SHARED | {"minkowski", "planner", "visual_hull"}, "nef_mpi": SHARED | {"minkowski", "visual_hull"}}
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+MOST_MODULES = 13  # a dozen, and one
+FOLDERS = ["nef", "apps", "python", "tests", "fuzz", "bench", "scripts", "cmake"]
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 INCLUDE = re.compile(r'^#include "((?:nef|apps|tests|fuzz|bench|python)/[^"]+)"', re.MULTILINE)
 
 
@@ -40,8 +44,22 @@ def allowed(source: pathlib.PurePath, target: pathlib.PurePath) -> bool:
     return CORE.index(target.parts[1]) <= CORE.index(source.parts[1])
 
 
+def crowded_folders() -> list[str]:
+    """Folders with more than MOST_MODULES modules; a header, its source and scripts of one name are one."""
+    modules = collections.defaultdict(set)
+    for folder in FOLDERS:
+        for path in (ROOT / folder).rglob("*"):
+            if path.suffix in (".h", ".cpp", ".js", ".mjs", ".py", ".sh") and "__pycache__" not in path.parts:
+                modules[path.parent.relative_to(ROOT)].add(path.stem)
+    return [f"{folder} has {len(names)} modules; put what belongs together into a folder of its own"
+            for folder, names in sorted(modules.items()) if len(names) > MOST_MODULES]
+
+
 def main() -> int:
-    broken = 0
+    crowded = crowded_folders()
+    for line in crowded:
+        print(line)
+    broken = len(crowded)
     for folder in ("nef", "apps"):
         for path in sorted((ROOT / folder).rglob("*")):
             if path.suffix not in (".h", ".cpp"):

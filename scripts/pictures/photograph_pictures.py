@@ -3,7 +3,7 @@
 """The pictures of docs/photographs.md: photographs of a painted duck that turns on a printed board, rendered here, and what
 visual_hull makes of them.
 
-  scripts/photograph_pictures.py [--bin build/release/bin] [--out docs/pictures] [--keep DIR]
+  scripts/pictures/photograph_pictures.py [--bin build/release/bin] [--out docs/pictures] [--keep DIR]
 
 The camera has a lens with distortion and noise, its axis does not meet the middle of the image, and a lamp that stands still
 throws a shadow. The commands that are run are printed, with what they print, and how far the hull's volume is from the duck's.

@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Sets the version of the suite everywhere at once: nef/version.h, from which CMake, the programs, the Python package and the Debian
-packages have it; recipes of packages and CITATION.cff; and the heading "Unreleased" of CHANGELOG.md. scripts/check_sources.py
+packages have it; recipes of packages and CITATION.cff; and the heading "Unreleased" of CHANGELOG.md. scripts/checks/check_sources.py
 finds files that disagree.
 
-Usage: scripts/set_version.py 1.0.0 [DATE]      DATE: of the release, today if it is left out
+Usage: scripts/release/set_version.py 1.0.0 [DATE]      DATE: of the release, today if it is left out
 """
 import datetime
 import pathlib
 import re
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 # Where the version stands: the file, and a pattern whose group is the version.
 PLACES = {
     "nef/version.h": r'#define NEF_VERSION "(.*)"',
@@ -49,7 +49,7 @@ def main() -> int:
     for name, pattern in PLACES.items():
         replaced(name, pattern, version)
     replaced("CITATION.cff", r"^date-released: (.*)$", date)
-    print(f"version {version}; commit this, then run scripts/release.sh")
+    print(f"version {version}; commit this, then run scripts/release/release.sh")
     return 0
 
 

@@ -5,16 +5,17 @@ with a folder of the repository, and every relative link), whether ctest can run
 source has a test near it (scripts/tests_of.py), whether all files that name a version name the same, and whether
 pages have both versions of a merge. Prints what does not hold; exits 1 if anything does not.
 
-Usage: scripts/check_sources.py [FOLDER]      with FOLDER only the links of the pages in it, as installed
+Usage: scripts/checks/check_sources.py [FOLDER]      with FOLDER only the links of the pages in it, as installed
 """
 import pathlib
 import re
 import sys
 
-import set_version
-import tests_of
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "scripts" / "release")]
+import set_version  # noqa: E402
+import tests_of  # noqa: E402
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
 FOLDERS = ["nef", "apps", "python", "tests", "fuzz", "bench", "scripts", "docs", "data", ".ci"]
 PATH = re.compile(rf"`((?:{'|'.join(FOLDERS)})/[\w./*-]+)`")
 LINK = re.compile(r"\]\(([\w./-]+)(?:#[\w-]*)?\)")
@@ -94,10 +95,10 @@ def other_versions() -> list[str]:
     """Files that name another version than nef/version.h does, and a version without a section in CHANGELOG.md."""
     version = set_version.version_in("nef/version.h")
     named = {path: set_version.version_in(path) for path in set_version.PLACES}
-    complaints = [f"{path} is of version {other!r}, nef/version.h of {version!r}; scripts/set_version.py sets both"
+    complaints = [f"{path} is of version {other!r}, nef/version.h of {version!r}; scripts/release/set_version.py sets both"
                   for path, other in named.items() if other != version]
     if not re.search(rf"^## {re.escape(version)}\b", (ROOT / "CHANGELOG.md").read_text(encoding="utf-8"), re.MULTILINE):
-        complaints.append(f"CHANGELOG.md has no section of the version {version}; scripts/set_version.py makes it of 'Unreleased'")
+        complaints.append(f"CHANGELOG.md has no section of the version {version}; scripts/release/set_version.py makes it of 'Unreleased'")
     return complaints
 
 

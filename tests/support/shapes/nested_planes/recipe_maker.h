@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-#include "tests/support/nested_planes/recipe.h"
+#include "tests/support/shapes/nested_planes/recipe.h"
 
 namespace nef::test::nested {
 

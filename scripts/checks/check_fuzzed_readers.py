@@ -9,7 +9,7 @@ import pathlib
 import re
 import sys
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 FOLDERS = ["nef/io", "nef/io/mesh", "nef/io/mesh/formats", "nef/io/native", "nef/io/cgal", "apps/program/expression", "apps/program", "apps/program/reports", "apps/nef/command/apply",
            "apps/visual_hull/formats", "apps/planner/scene", "apps/planner/path",
            "apps/planner/proofs", "apps/planner/rigid", "apps/planner/linkage_urdf"]

@@ -3,18 +3,18 @@
 # own documents, with the library, the programs and the Python package; then the wheel in a virtual environment of its own.
 # Makes that system in a temporary folder (debootstrap), so it needs to be root and to reach Debian's packages.
 #
-# Usage: scripts/try_packages.sh FOLDER     FOLDER: with *.deb and *.whl, as scripts/release.sh leaves it
+# Usage: scripts/release/try_packages.sh FOLDER     FOLDER: with *.deb and *.whl, as scripts/release/release.sh leaves it
 set -euo pipefail
 if [ $# -ne 1 ]; then
-  echo "usage: scripts/try_packages.sh FOLDER" >&2
+  echo "usage: scripts/release/try_packages.sh FOLDER" >&2
   exit 2
 fi
 packages=$(realpath -e "$1")
 if ! ls "$packages"/*.deb "$packages"/*.whl >/dev/null; then
-  echo "try_packages.sh: $1: *.deb and *.whl are needed; scripts/release.sh makes them" >&2
+  echo "try_packages.sh: $1: *.deb and *.whl are needed; scripts/release/release.sh makes them" >&2
   exit 2
 fi
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/../.."
 source scripts/setup.sh
 install_missing debootstrap
 bare=$(mktemp -d)

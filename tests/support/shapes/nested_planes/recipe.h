@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "tests/support/literals.h"
-#include "tests/support/nested_planes/grid.h"
+#include "tests/support/shapes/nested_planes/grid.h"
 
 namespace nef::test::nested {
 

@@ -3,7 +3,7 @@
 """Whether every link of the site leads to a page of it, and every anchor to a place on that page. The references of Doxygen and
 Sphinx are linked to, but their own links are theirs.
 
-Usage: scripts/check_site.py SITE
+Usage: scripts/checks/check_site.py SITE
 """
 import html.parser
 import pathlib

@@ -7,6 +7,7 @@
 import * as THREE from "three";
 
 export const MOST_TRIANGLES = 16000; // of a scene that is always drawn whole; about as many are left of a larger one
+const FEW_TRIANGLES = 2000; // of a layer that stays whole
 const CELLS_OF_RADIUS = 40; // of the page, at first
 const MOST_CELLS = 2 ** 17; // of a side, so that a cell has one number
 
@@ -89,24 +90,25 @@ export class CoarseView {
     this.cells = null;
   }
 
-  // Makes few triangles of these views, which are those of a scene in a page of this radius. O(those that are new).
+  // Makes few triangles of the large layers among these views, which are those of a scene in a page of this radius. O(those
+  // that are new).
   show(views, radius) {
     this.dispose();
-    const large = views.filter((view) => view.layer.piece || triangleCount(view) > MOST_TRIANGLES / 8);
+    const layers = new Map(); // pieces of a layer are one
+    for (const view of views) {
+      const key = view.layer.piece ? view.layer.name : view;
+      if (!layers.has(key)) layers.set(key, []);
+      layers.get(key).push(view);
+    }
+    const large = [...layers.values()].filter((some) => some.reduce((sum, view) => sum + triangleCount(view), 0) > FEW_TRIANGLES);
     const finest = radius / CELLS_OF_RADIUS;
     if (!this.cells || this.cells.side < finest / 2 || this.cells.side > finest * 8) this.#begin(finest);
-    let count = this.#make(large);
+    let count = this.#make(large.flat());
     while (count > 1.5 * MOST_TRIANGLES && this.cells.side < finest * 8) {
       this.#begin(this.cells.side * Math.sqrt(count / MOST_TRIANGLES));
-      count = this.#make(large);
+      count = this.#make(large.flat());
     }
-    const groups = new Map(); // pieces of a layer are one
-    for (const view of large) {
-      const key = view.layer.piece ? view.layer.name : view;
-      if (!groups.has(key)) groups.set(key, []);
-      groups.get(key).push(view);
-    }
-    this.groups = [...groups.values()].map((some) => {
+    this.groups = large.map((some) => {
       const mesh = new THREE.Mesh(joinedGeometry(some, radius), some[0].facets.material);
       mesh.frustumCulled = false;
       mesh.matrixAutoUpdate = false;

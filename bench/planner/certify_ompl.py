@@ -6,7 +6,8 @@ Runs OMPL's planners on OMPL.app's problems in SE(3) (its folder resources/3D, g
 own problems) and certifies every path that they find. Prints a table in Markdown: for each scene, planner and check of
 motions how many runs were solved, how many of the paths collide, before simplification and after it, how many could not
 be decided, CPU seconds of the planner (median over the solved runs), of the simplifier and of the certificate, and
-microseconds of planning for each motion that was checked. With --poses a colliding pose for each row that has one.
+microseconds of planning for each motion that was checked. With --poses a colliding pose for each row that has one; with
+--against the times of the other checks, divided by those of that one.
 
     cmake --build --preset release --target bench_planner_certify_ompl
     bench/planner/certify_ompl.py --scenes omplapp/resources/3D --only Easy,cubicles --runs 10
@@ -35,23 +36,33 @@ def parse_arguments():
     parser.add_argument("--time", type=float, default=20, help="seconds for a run of a planner")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--poses", action="store_true", help="print a colliding pose for each row that has one")
+    parser.add_argument("--against", default="", metavar="CHECK", help="divide the times of the others by those of this check")
     parser.add_argument("--bin", type=pathlib.Path, default=ROOT / "build/release/bin", help="where the program is")
-    return parser.parse_args()
+    options = parser.parse_args()
+    if options.against and options.against not in options.checks.split(","):
+        parser.error(f"--against {options.against} is not one of the --checks")
+    return options
 
 
 def runs_of(options, scene, planner):
-    """The program's lines: one object for each run. A scene that it refuses has none."""
-    command = [options.bin / "bench_planner_certify_ompl", scene, planner, options.runs, options.time, options.seed]
-    limit = 600 + (options.time * 3 + 60) * options.runs * len(options.checks.split(","))
-    try:
-        result = subprocess.run([*map(str, command), options.checks], capture_output=True, text=True, timeout=limit)
-    except subprocess.TimeoutExpired:
-        print(f"{scene.stem}: not done in {limit:.0f} s", file=sys.stderr)
-        return []
-    if result.returncode != 0:
-        lines = result.stderr.strip().splitlines() or [f"exit code {result.returncode}"]
-        print(f"{scene.stem}: {lines[-1]}", file=sys.stderr)
-    return [json.loads(line) for line in result.stdout.splitlines() if line.startswith("{")]
+    """One object for each run. Each is a process with its own seed, the same ones for all checks, and checks take turns, so
+    that a load of the machine is shared by all. A scene that the program refuses has no runs."""
+    limit = 660 + options.time * 3
+    result = []
+    for run in range(options.runs):
+        for check in options.checks.split(","):
+            command = [options.bin / "bench_planner_certify_ompl", scene, planner, 1, options.time, options.seed + run, check]
+            try:
+                done = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=limit)
+            except subprocess.TimeoutExpired:
+                print(f"{scene.stem}, {check}: not done in {limit:.0f} s", file=sys.stderr)
+                continue
+            if done.returncode != 0:
+                lines = done.stderr.strip().splitlines() or [f"exit code {done.returncode}"]
+                print(f"{scene.stem}: {lines[-1]}", file=sys.stderr)
+                return result
+            result += [json.loads(line) for line in done.stdout.splitlines() if line.startswith("{")]
+    return result
 
 
 def row_of(runs):
@@ -80,19 +91,36 @@ def row_of(runs):
     return cells, witness
 
 
+def totals_of(runs):
+    """CPU seconds of all runs: of planning, of simplifying, of both, of both for each path, of planning for each motion."""
+    planning = sum(run["seconds"] for run in runs)
+    simplifying = sum(run.get("simplify_seconds", 0) for run in runs)
+    solved, motions = sum(run["solved"] for run in runs), sum(run["motions"] for run in runs)
+    both = planning + simplifying
+    return planning, simplifying, both, both / solved if solved else 0, planning / motions if motions else 0
+
+
+def ratios_of(runs, base):
+    """The totals divided by those of other runs."""
+    return [f"{ours / theirs:.2f}" if ours and theirs else "-" for ours, theirs in zip(totals_of(runs), totals_of(base))]
+
+
 def main():
     options = parse_arguments()
     wanted = set(filter(None, options.only.split(",")))
     print("| scene | planner | check | solved | free | collide (raw) | undecided | plan, s | simplify, s | certify, s | us a motion |")
     print("|" + " --- |" * 11)
-    poses = []
+    poses, ratios = [], []
     for scene in sorted(options.scenes.glob("*.cfg")):
         if wanted and scene.stem not in wanted:
             continue
         for planner in options.planners.split(","):
             runs = runs_of(options, scene, planner)
+            base = [run for run in runs if run["check"] == options.against]
             for check in options.checks.split(","):
                 rows = [run for run in runs if run["check"] == check]
+                if base and rows and check != options.against:
+                    ratios.append(f"| {scene.stem} | {planner} | {check} | {' | '.join(ratios_of(rows, base))} |")
                 if not rows:
                     continue
                 cells, witness = row_of(rows)
@@ -100,6 +128,11 @@ def main():
                 if witness:
                     numbers = " ".join(repr(x) for x in witness["position"] + witness["quaternion"])
                     poses.append(f"{scene.stem}, {planner}, {check}: x y z qw qx qy qz = {numbers}")
+    if ratios:
+        print(f"\nTimes divided by those of {options.against}, each added up over all runs:\n")
+        print("| scene | planner | check | plan | simplify | both | both, a path | plan, a motion |")
+        print("|" + " --- |" * 8)
+        print("\n".join(ratios))
     if options.poses and poses:
         print("\nColliding poses, one for each row that has some:\n")
         print("\n".join(poses))

@@ -6,9 +6,23 @@
 
 Prints what is proved and the SHA-256 of the claim, and exits with 0; with 1 if the proof does not hold, or if --claim
 names another claim; with 2 if the file cannot be read. docs/proofs.md says what a claim means, docs/how/proofs.md why this proves it.
+
+Sections, and the claims that need them:
+
+    Reading; Vectors and rotations; Convex pieces            all
+    How far a motion has come; What claims have in common    all but inseparable
+    Free and blocked paths                                   path, blocked, tight
+    Barriers of triangles                                    infeasible: of translations, along a chain
+    Orientations                                             infeasible: about all axes, along a chain
+    Boxes of poses                                           infeasible: about all axes
+    Layers of orientations                                   infeasible: along a chain
+    Cones of directions                                      inseparable, tight
+    What cannot begin to move                                inseparable
+    Tight passages                                           tight
 """
 import argparse
 import collections
+import functools
 import hashlib
 import json
 import math
@@ -38,6 +52,10 @@ def fields(value, *keys):
     return [value[key] for key in keys]
 
 
+def has_key(value, key):
+    return isinstance(value, dict) and key in value
+
+
 def items(value, count=None):
     require(isinstance(value, list) and count in (None, len(value)), f"expected a list of {count or 'any number'}")
     return value
@@ -61,13 +79,22 @@ def index(value, count):
     return value
 
 
-def pieces(value):
-    result = [[numbers(vertex, 3) for vertex in items(piece)] for piece in items(value)]
-    require(all(result), "a piece has no vertices")
-    return result
+def intervals(parts, start, *keys):
+    """Parts of an interval, from its start to 1: where each begins and ends (`until`), and its other values."""
+    for part in items(parts):
+        until, *others = fields(part, "until", *keys)
+        end = number(until)
+        require(start < end <= 1, "the parts of an interval do not go up to 1")
+        yield (start, end, *others)
+        start = end
+    require(start == 1, "the parts of an interval do not go up to 1")
 
 
 # Vectors and rotations. A quaternion is w, x, y, z, of any length.
+
+def sign(x):
+    return (x > 0) - (x < 0)
+
 
 def dot(a, b):
     return sum(x * y for x, y in zip(a, b))
@@ -75,12 +102,6 @@ def dot(a, b):
 
 def minus(a, b):
     return [x - y for x, y in zip(a, b)]
-
-
-def integral(a):
-    """The vector times the least positive number that makes all its components integers."""
-    scale = math.lcm(*(x.denominator for x in a))
-    return [int(x * scale) for x in a]
 
 
 def cross(a, b):
@@ -91,6 +112,30 @@ def between(a, b, s):
     return [(1 - s) * x + s * y for x, y in zip(a, b)]
 
 
+def axes(dimension):
+    return [[int(i == k) for i in range(dimension)] for k in range(dimension)]
+
+
+def whole(*rows):
+    """Vectors times the least positive number that makes all their components integers."""
+    scale = math.lcm(*(x.denominator for row in rows for x in row))
+    return [[int(x * scale) for x in row] for row in rows]
+
+
+def shortest(v):
+    """The shortest integer vector of the same direction."""
+    [v] = whole(v)
+    length = math.gcd(*v)
+    require(length, "a vector has no direction")
+    return tuple(x // length for x in v)
+
+
+def unit(v):
+    """The shortest integer vector that is parallel to one, its first number that is not zero positive."""
+    v = shortest(v)
+    return v if next(x for x in v if x) > 0 else tuple(-x for x in v)
+
+
 def rotation_form(q):
     """The rotation matrix of a quaternion times its square, and a row with the square."""
     w, x, y, z = q
@@ -99,26 +144,100 @@ def rotation_form(q):
             [2 * (x * z - w * y), 2 * (y * z + w * x), w * w - x * x - y * y + z * z], [dot(q, q)]]
 
 
-def mixed_rotation(p, q):
-    """B(p, q) / <p, q>, where B(q, q) / <q, q> is the rotation matrix of q and B is symmetric and bilinear."""
-    forms = (rotation_form([x + y for x, y in zip(p, q)]), rotation_form(p), rotation_form(q))
-    *rows, [scale] = [minus(minus(both, one), other) for both, one, other in zip(*forms)]
-    return [[Fraction(entry) / scale for entry in row] for row in rows]
+def mixtures(chart, low, high):
+    """Every rotation of a part of a chart is a mixture of these matrices. A chart is a set of quaternions,
+    origin + sum t_k directions[k]; in the part each t_k is from low[k] to high[k]. They are the Bernstein coefficients of the
+    quadratic form, divided by those of the square: at the ends and in the middle of each parameter, less the form of half of the edge for
+    each middle. Each is four rows of integers: three of the matrix, and its positive divisor."""
+    origin, directions = chart
+    result = []
+    for number_of_mixture in range(3 ** len(directions)):
+        ends = [number_of_mixture // 3 ** k % 3 for k in range(len(directions))]
+        at = [Fraction((2 - end) * low[k] + end * high[k]) / 2 for k, end in enumerate(ends)]
+        rows = rotation_form([x + sum(t * d[i] for t, d in zip(at, directions)) for i, x in enumerate(origin)])
+        for k, end in enumerate(ends):
+            if end == 1:
+                edge = rotation_form([x * Fraction(high[k] - low[k]) / 2 for x in directions[k]])
+                rows = [minus(row, less) for row, less in zip(rows, edge)]
+        require(rows[3][0] > 0, "a part has too many orientations")
+        result.append(whole(*rows))
+    return result
 
 
-def placed(turn, vertex, position):
-    return [dot(row, vertex) + at for row, at in zip(turn, position)]
+def arc(p, q):
+    """The chart of the quaternions between two, which are the ends of its parameter, -1 and 1."""
+    return between(p, q, Fraction(1, 2)), [[Fraction(x) / 2 for x in minus(q, p)]]
 
 
-def is_flat(piece):
-    """Whether all vertices lie in one plane."""
-    sides = [minus(vertex, piece[0]) for vertex in piece[1:]]
-    normals = (cross(a, b) for i, a in enumerate(sides) for b in sides[:i])
-    normal = next((n for n in normals if any(n)), [0, 0, 0])
-    return all(dot(normal, side) == 0 for side in sides)
+def placed(mixture, vertex, position):
+    *rows, [divisor] = mixture
+    return [Fraction(dot(row, vertex)) / divisor + at for row, at in zip(rows, position)]
 
 
-# How far a motion has come when its rotation is at a parameter of the arc: angles, enclosed by rational numbers.
+def rotated(q, vertices, position):
+    [rotation] = mixtures((q, []), [], [])
+    return [placed(rotation, vertex, position) for vertex in vertices]
+
+
+# Convex pieces.
+
+def outward_normals(vectors):
+    """The outward normals of the planes through two of the vectors that have all of them on one side: those around the
+    cone that the vectors span, if that is neither flat nor all of space."""
+    [*vectors] = whole(*vectors)
+    found = set()
+    for i, u in enumerate(vectors):
+        for v in vectors[:i]:
+            normal, sides = cross(u, v), set()
+            for w in vectors:
+                sides.add(sign(dot(normal, w)))
+                if len(sides) > 1 and 0 not in sides or len(sides) > 2:
+                    break
+            if sides in ({0, -1}, {0, 1}):
+                found.add(shortest(normal if -1 in sides else minus([0, 0, 0], normal)))
+    return found
+
+
+class Piece:
+    """The hull of its vertices."""
+
+    def __init__(self, vertices):
+        self.vertices = [numbers(vertex, 3) for vertex in items(vertices)]
+        require(self.vertices, "a piece has no vertices")
+
+    @functools.cached_property
+    def is_flat(self):
+        """Whether all vertices lie in one plane."""
+        sides = [minus(vertex, self.vertices[0]) for vertex in self.vertices[1:]]
+        normals = (cross(a, b) for i, a in enumerate(sides) for b in sides[:i])
+        normal = next((n for n in normals if any(n)), [0, 0, 0])
+        return all(dot(normal, side) == 0 for side in sides)
+
+    @functools.cached_property
+    def faces(self):
+        """The half-spaces n x <= c whose intersection it is, if it is solid."""
+        require(not self.is_flat, "a flat piece blocks nothing")
+        cones = ((a, outward_normals([minus(v, a) for v in self.vertices if v != a])) for a in self.vertices)
+        return list({normal: Fraction(dot(normal, a)) for a, normals in cones for normal in normals}.items())
+
+
+def pieces(value):
+    return [Piece(piece) for piece in items(value)]
+
+
+def common_point(first, of_first, second, of_second, inside):
+    """A point of two hulls, given as a weighted sum of the vertices of each; without zeros it is inside both."""
+    points = []
+    for vertices, given in ((first, of_first), (second, of_second)):
+        weights = numbers(given, len(vertices))
+        require(all(w > 0 if inside else w >= 0 for w in weights) and sum(weights) == 1,
+                "weights must be positive and add up to 1")
+        points.append([dot(weights, coordinates) for coordinates in zip(*vertices)])
+    require(points[0] == points[1], "two pieces have not the point in common")
+    return points[0]
+
+
+# How far a motion has come, when its rotation is at a parameter of the arc: angles, enclosed by rational numbers.
 
 def root(x, upper):
     """A bound of the square root."""
@@ -155,11 +274,9 @@ class Motion:
 
     def __init__(self, start, end):
         (self.start, self.p), (self.end, self.q) = start, end
-        product = dot(self.p, self.q)
-        self.turns = product ** 2 != dot(self.p, self.p) * dot(self.q, self.q)
-        if not self.turns:
+        if unit(self.p) == unit(self.q):
             self.q = self.p
-        elif product < 0:
+        elif dot(self.p, self.q) < 0:
             self.q = [-x for x in self.q]
 
     def quaternion(self, s):
@@ -170,18 +287,21 @@ class Motion:
 
     def times(self, s):
         """Two bounds of the part of the way that is done when the rotation is at parameter s."""
-        if not self.turns or s in (0, 1):
+        if self.p == self.q or s in (0, 1):
             return s, s
         r, least = self.quaternion(s), half_angle(self.p, self.q, False)
         low = rounded(half_angle(self.p, r, False) / half_angle(self.p, self.q, True), False)
         return low, min(1, rounded(half_angle(self.p, r, True) / least, True)) if least else 1
 
 
-# Paths.
+# What claims have in common.
 
 class PathClaim:
-    def __init__(self, value):
-        _, contact, box, robot, obstacles, path = fields(value, "status", "contact", "box", "robot", "obstacles", "path")
+    """A claim about a path; `others` are the values of further keys."""
+
+    def __init__(self, value, *further_keys):
+        _, contact, box, robot, obstacles, path, *self.others = fields(
+            value, "status", "contact", "box", "robot", "obstacles", "path", *further_keys)
         require(contact in ("allow", "forbid"), "unknown rule of contact")
         self.contact_allowed = contact == "allow"
         self.box = None if box is None else [numbers(corner, 3) for corner in items(box, 2)]
@@ -193,14 +313,31 @@ class PathClaim:
         require(all(any(q) for _, q in self.poses), "the quaternion of a pose is zero")
         ends = self.poses[1:] or self.poses  # a path of one pose has one motion, which stays
         self.motions = [Motion(start, end) for start, end in zip(self.poses, ends)]
-        self.flat = [is_flat(piece) for piece in self.robot], [is_flat(piece) for piece in self.obstacles]
 
     def in_box(self, position):
         return self.box is None or all(a <= x <= b for a, x, b in zip(self.box[0], position, self.box[1]))
 
-    def may_touch(self, i, j):
+    def beyond_a_side(self, positions):
+        """Whether all positions, and so all between them, lie beyond the same side of the box."""
+        return self.box is not None and any(all(p[k] < self.box[0][k] for p in positions) or
+                                            all(p[k] > self.box[1][k] for p in positions) for k in range(3))
+
+    def pair(self, i, j):
+        return self.robot[index(i, len(self.robot))], self.obstacles[index(j, len(self.obstacles))]
+
+    def may_touch(self, piece, obstacle):
         """Solid pieces may touch, if contact is allowed; flat ones never."""
-        return self.contact_allowed and not self.flat[0][i] and not self.flat[1][j]
+        return self.contact_allowed and not piece.is_flat and not obstacle.is_flat
+
+    def require_collision(self, piece, position, obstacle, common, turn=(1, 0, 0, 0)):
+        """A piece of the robot, at a pose, collides with an obstacle; so it does at all positions between such positions."""
+        ours, theirs = fields(common, "robot", "obstacle")
+        common_point(rotated(turn, piece.vertices, position), ours, obstacle.vertices, theirs, self.may_touch(piece, obstacle))
+
+
+# Free and blocked paths.
+
+AXES = [[way * x for x in axis] for axis in axes(3) for way in (1, -1)]
 
 
 def are_apart(a, b, may_touch, planes):
@@ -212,100 +349,81 @@ def are_apart(a, b, may_touch, planes):
     return False
 
 
-AXES = [[sign if k == axis else 0 for k in range(3)] for axis in range(3) for sign in (1, -1)]
-
-
 def check_part(claim, motion, start, end, given):
-    """Every pair of pieces is apart from parameter start to end: enclosed by the images of each vertex by the rotations
-    at both ends and the mixed one between them, at both ends of an interval that has the positions."""
+    """Every pair of pieces is apart from parameter start to end: enclosed by the images of each vertex by the mixtures of the
+    rotations, at both ends of an interval that has the positions."""
     planes = {}
     for plane in items(given):
         i, j, normal = fields(plane, "robot", "obstacle", "normal")
-        planes[index(i, len(claim.robot)), index(j, len(claim.obstacles))] = numbers(normal, 3)
-    p, q = motion.quaternion(start), motion.quaternion(end)
-    require(dot(p, q) > 0, "a part turns too far")
-    turns = [mixed_rotation(p, p), mixed_rotation(p, q), mixed_rotation(q, q)]
+        planes[claim.pair(i, j)] = numbers(normal, 3)
+    turns = mixtures(arc(motion.quaternion(start), motion.quaternion(end)), [-1], [1])
     positions = [motion.position(motion.times(start)[0]), motion.position(motion.times(end)[1])]
     for i, piece in enumerate(claim.robot):
-        swept = [placed(turn, vertex, position) for vertex in piece for turn in turns for position in positions]
+        swept = [placed(turn, vertex, position) for vertex in piece.vertices for turn in turns for position in positions]
         for j, obstacle in enumerate(claim.obstacles):
-            normals = AXES + [planes[i, j]] if (i, j) in planes else AXES
-            require(are_apart(swept, obstacle, claim.may_touch(i, j), normals), f"nothing separates pieces {i} and {j}")
+            normals = AXES + [planes[piece, obstacle]] if (piece, obstacle) in planes else AXES
+            require(are_apart(swept, obstacle.vertices, claim.may_touch(piece, obstacle), normals),
+                    f"nothing separates pieces {i} and {j}")
 
 
 def check_free_path(claim, witness):
+    claim = PathClaim(claim)
     require(all(claim.in_box(position) for position, _ in claim.poses), "a pose is outside the box")
     motions = items(fields(witness, "motions")[0], len(claim.motions))
     for motion, parts in zip(claim.motions, motions):
-        start = Fraction(0)
-        for part in items(parts):
-            until, planes = fields(part, "until", "planes")
-            end = number(until)
-            require(start < end <= 1, "the parts of a motion do not go up to 1")
+        for start, end, planes in intervals(parts, Fraction(0), "planes"):
             check_part(claim, motion, start, end, planes)
-            start = end
-        require(start == 1, "the parts of a motion do not go up to 1")
     return f"path: all {len(motions)} motions are free"
 
 
-def weighted_sum(points, weights, positive):
-    require(all(w > 0 if positive else w >= 0 for w in weights) and sum(weights) == 1,
-            "weights must be positive and add up to 1")
-    return [dot(weights, coordinates) for coordinates in zip(*points)]
-
-
 def check_blocked_path(claim, witness):
-    if isinstance(witness, dict) and "outside" in witness:
+    claim = PathClaim(claim)
+    if has_key(witness, "outside"):
         pose = index(fields(witness, "outside")[0], len(claim.poses))
         require(not claim.in_box(claim.poses[pose][0]), "the pose is in the box")
         return f"blocked: pose {pose} is outside the box"
     m, parameter, times, i, j, common = fields(fields(witness, "collision")[0], "motion", "parameter", "times", "robot",
                                                "obstacle", "common")
-    motion = claim.motions[index(m, len(claim.motions))]
-    piece, obstacle = claim.robot[index(i, len(claim.robot))], claim.obstacles[index(j, len(claim.obstacles))]
-    s = number(parameter)
+    motion, (piece, obstacle) = claim.motions[index(m, len(claim.motions))], claim.pair(i, j)
+    s, times = number(parameter), numbers(times, 2)
     require(0 <= s <= 1, "the parameter is not between 0 and 1")
-    times = numbers(times, 2)
     low, high = motion.times(s)
     require(times[0] <= low and high <= times[1], "the position is not where the proof says")
-    turn = mixed_rotation(motion.quaternion(s), motion.quaternion(s))
     for time, point in zip(times, items(common, 2)):
-        ours, theirs = fields(point, "robot", "obstacle")
-        here = [placed(turn, vertex, motion.position(time)) for vertex in piece]
-        inside = claim.may_touch(i, j)
-        require(weighted_sum(here, numbers(ours, len(here)), inside) ==
-                weighted_sum(obstacle, numbers(theirs, len(obstacle)), inside), "the pieces have not the point in common")
+        claim.require_collision(piece, motion.position(time), obstacle, point, motion.quaternion(s))
     return f"blocked: motion {m} collides at parameter {parameter}"
 
 
-# That there is no path: a barrier of triangles.
+# Barriers of triangles, which are cycles modulo 2. What they separate is told by rays.
 
-def beyond_a_side(box, corners):
-    return box is not None and any(all(p[k] < box[0][k] for p in corners) or all(p[k] > box[1][k] for p in corners)
-                                   for k in range(3))
-
-
-def check_triangle(claim, points, triangle):
-    """No position on the triangle is free: it lies beyond a side of the box, or two pieces overlap at its corners, and so
-    on all of it. Returns the numbers of the corners."""
-    if isinstance(triangle, dict) and set(triangle) == {"corners"}:
-        corners = [index(c, len(points)) for c in items(triangle["corners"], 3)]
-        require(beyond_a_side(claim.box, [points[c] for c in corners]), "a triangle may be passed")
-        return corners
-    given, i, j, common = fields(triangle, "corners", "robot", "obstacle", "common")
-    corners = [index(c, len(points)) for c in items(given, 3)]
-    piece, obstacle = claim.robot[index(i, len(claim.robot))], claim.obstacles[index(j, len(claim.obstacles))]
-    require(not claim.contact_allowed or claim.may_touch(i, j), "a flat piece bars nothing where contact is allowed")
-    for corner, point in zip(corners, items(common, 3)):
-        ours, theirs = fields(point, "robot", "obstacle")
-        require(minus(weighted_sum(obstacle, numbers(theirs, len(obstacle)), claim.contact_allowed),
-                      weighted_sum(piece, numbers(ours, len(piece)), claim.contact_allowed)) == points[corner],
-                "the pieces have not the point in common")
+def simplex(claim, points, count, given, require_blocked):
+    """The corners of a triangle or tetrahedron, no position on which is free: it lies beyond a side of the box, or two pieces
+    overlap at its corners, and so on all of it."""
+    overlap = has_key(given, "robot")
+    places, *pair = fields(given, "corners", *(("robot", "obstacle", "common") if overlap else ()))
+    corners = [points[index(place, len(points))] for place in items(places, count)]
+    if overlap:
+        require_blocked(corners, *pair)
+    require(overlap or claim.beyond_a_side(corners), "a position on a barrier may be free")
     return corners
 
 
-def sign(x):
-    return (x > 0) - (x < 0)
+def edge_ends(corners):
+    """The ends of a triangle's edges, each with the line of its edge. If these cancel out modulo 2 over some triangles, so do
+    the edges as sets of points, however they are cut."""
+    for a, b in zip(corners, corners[1:] + corners[:1]):
+        along = unit(minus(b, a))
+        line = along, *cross(a, along)
+        yield line, *a
+        yield line, *b
+
+
+def cancel_out(ends):
+    return all(count % 2 == 0 for count in collections.Counter(ends).values())
+
+
+def have_no_border(triangles):
+    return cancel_out(end for corners in triangles for end in edge_ends(corners))
 
 
 def crosses(corners, origin, direction):
@@ -328,68 +446,26 @@ def crosses_odd(triangles, origin):
     raise Refused("every ray meets an edge, or start or goal is on the barrier")
 
 
-def check_infeasible(claim, witness):
-    """Triangles whose edges occur an even number of times are a cycle modulo 2; what it separates is told by rays."""
+def check_no_translation(claim, witness):
+    claim = PathClaim(claim)
+    require(len(claim.poses) == 2 and all(q == [1, 0, 0, 0] for _, q in claim.poses), "expected start and goal, not turned")
     points, triangles = fields(fields(witness, "barrier")[0], "points", "triangles")
     points = [numbers(point, 3) for point in items(points)]
-    require(len(claim.poses) == 2 and all(q == [1, 0, 0, 0] for _, q in claim.poses), "expected start and goal, not turned")
-    found = [check_triangle(claim, points, triangle) for triangle in items(triangles)]
-    edges = collections.Counter(tuple(sorted(edge)) for a, b, c in found for edge in ((a, b), (b, c), (c, a)))
-    require(all(count % 2 == 0 for count in edges.values()), "an edge is one of an odd number of triangles")
-    placed_triangles = [[points[c] for c in corners] for corners in found]
-    sides = [crosses_odd(placed_triangles, position) for position, _ in claim.poses]
+
+    def require_blocked(corners, i, j, common):
+        piece, obstacle = claim.pair(i, j)
+        require(not claim.contact_allowed or claim.may_touch(piece, obstacle), "a flat piece bars nothing where contact is allowed")
+        for corner, point in zip(corners, items(common, 3)):
+            claim.require_collision(piece, corner, obstacle, point)
+
+    barrier = [simplex(claim, points, 3, triangle, require_blocked) for triangle in items(triangles)]
+    require(have_no_border(barrier), "an edge is one of an odd number of triangles")
+    sides = [crosses_odd(barrier, position) for position, _ in claim.poses]
     require(sides[0] != sides[1], "start and goal are on the same side of the barrier")
-    return f"infeasible: {len(found)} triangles separate start and goal"
+    return f"infeasible: {len(barrier)} triangles separate start and goal"
 
 
-# That there is no path of a robot that turns. A chart is a set of quaternions, origin + sum t_k directions[k], each t_k from
-# -1 to 1; a part of one is a box of parameters.
-
-UNITS = [[int(i == k) for i in range(4)] for k in range(4)]
-
-
-def whole(rows):
-    """Numbers times a positive integer that makes them integers."""
-    scale = math.lcm(*(x.denominator for row in rows for x in row))
-    return [[int(x * scale) for x in row] for row in rows]
-
-
-def mixtures(chart, low, high):
-    """Every rotation of a part of a chart is a mixture of these matrices (the Bernstein coefficients of the quadratic form,
-    divided by those of the square): at the ends and in the middle of each parameter, less the form of half of the edge for
-    each middle. Each is four rows of integers: three of the matrix, and its positive divisor."""
-    origin, directions = chart
-    result = []
-    for number_of_mixture in range(3 ** len(directions)):
-        ends = [number_of_mixture // 3 ** k % 3 for k in range(len(directions))]
-        at = [Fraction((2 - end) * low[k] + end * high[k]) / 2 for k, end in enumerate(ends)]
-        rows = rotation_form([x + sum(t * d[i] for t, d in zip(at, directions)) for i, x in enumerate(origin)])
-        for k, end in enumerate(ends):
-            if end == 1:
-                edge = rotation_form([x * Fraction(high[k] - low[k]) / 2 for x in directions[k]])
-                rows = [minus(row, less) for row, less in zip(rows, edge)]
-        require(rows[3][0] > 0, "what is blocked has too many orientations")
-        result.append(whole(rows))
-    return result
-
-
-def faces(piece):
-    """The half-spaces n x <= c of a solid piece, found by trying all planes through three vertices."""
-    require(not is_flat(piece), "a flat piece blocks nothing")
-    scale = math.lcm(*(x.denominator for vertex in piece for x in vertex))
-    vertices = [[int(x * scale) for x in vertex] for vertex in piece]
-    found = {}
-    for i, a in enumerate(vertices):
-        for j in range(i):
-            for k in range(j):
-                normal = cross(minus(vertices[j], a), minus(vertices[k], a))
-                heights = [dot(normal, minus(v, a)) for v in vertices]
-                if any(normal) and (max(heights) == 0 or min(heights) == 0):
-                    length = math.gcd(*normal) * (1 if max(heights) == 0 else -1)
-                    normal = [x // length for x in normal]
-                    found[tuple(normal)] = Fraction(dot(normal, a), scale)
-    return list(found.items())
-
+# Orientations: pieces that overlap at all rotations of a part of a chart.
 
 class Blocking:
     """Shows that pieces overlap at all orientations of a part of a chart, and at all positions of the reference point in the
@@ -397,32 +473,25 @@ class Blocking:
 
     def __init__(self, claim, charts, reference):
         self.claim, self.charts, self.reference = claim, charts, reference
-        self.faces, self.normals = {}, {}
+        self.inner_pieces = {}
 
-    def faces_of(self, kind, i):
-        if (kind, i) not in self.faces:
-            piece = self.claim.robot[i] if kind == "robot" else self.claim.obstacles[i]
-            self.faces[kind, i] = faces([minus(v, self.reference) for v in piece] if kind == "robot" else piece)
-        return self.faces[kind, i]
-
-    def inner_piece(self, chart, low, high, i):
+    def inner_piece(self, chart, low, high, piece):
         """Half-spaces n x < c of integers, as (*n, c), whose points are inside the piece at all of the orientations."""
-        key = chart, *low, *high, i
-        if key not in self.normals:
-            mixed = mixtures(self.charts[chart], low, high)
-            self.normals[key] = [(*(dot(row, normal) * c.denominator for row in m[:3]), c.numerator * m[3][0])
-                                 for normal, c in self.faces_of("robot", i) for m in mixed]
-        return self.normals[key]
+        key = chart, *low, *high, piece
+        if key not in self.inner_pieces:
+            seen = [(normal, c - dot(normal, self.reference)) for normal, c in piece.faces]
+            self.inner_pieces[key] = [(*(dot(row, normal) * c.denominator for row in m[:3]), c.numerator * m[3][0])
+                                      for m in mixtures(self.charts[chart], low, high) for normal, c in seen]
+        return self.inner_pieces[key]
 
     def check(self, chart, low, high, positions, i, j, common):
         """Each position has a point of the obstacle that is inside the inner piece there. Both are convex, so each position
         between them has one."""
-        index(i, len(self.claim.robot))
-        obstacle = self.faces_of("obstacle", index(j, len(self.claim.obstacles)))
-        inner = self.inner_piece(chart, low, high, i)
+        piece, obstacle = self.claim.pair(i, j)
+        inner = self.inner_piece(chart, low, high, piece)
         for position, point in zip(positions, items(common, len(positions))):
             point = numbers(point, 3)
-            require(all(dot(n, point) <= c for n, c in obstacle), "a point of both pieces is not in the obstacle")
+            require(all(dot(n, point) <= c for n, c in obstacle.faces), "a point of both pieces is not in the obstacle")
             seen = minus(point, position)
             scale = math.lcm(*(x.denominator for x in seen))
             x, y, z = (int(x * scale) for x in seen)
@@ -430,24 +499,16 @@ class Blocking:
                     "a point of both pieces is not inside the robot")
 
 
-# About all axes: boxes of poses, of three coordinates and three parameters of a chart.
+# Boxes of poses: three coordinates, and three parameters of a chart. In chart c component c of the quaternion is 1, and the
+# others are the parameters.
 
-# Quaternions with component c = 1; the others are the parameters.
 PARAMETERS = [[e for e in range(4) if e != c] for c in range(4)]
-CHARTS = [(UNITS[c], [UNITS[e] for e in PARAMETERS[c]]) for c in range(4)]
-
-
-def seam(c, e, end):
-    """Where charts meet, component c = 1 and e = end; times the end, e = 1 and c = end. Chart, axis of the box and end of it,
-    the same beyond, and pairs of other axes, whose values are multiplied by the end."""
-    def axis(chart, component):
-        return 3 + PARAMETERS[chart].index(component)
-    return c, axis(c, e), e, axis(e, c), end, [(axis(c, f), axis(e, f)) for f in range(4) if f not in (c, e)]
+CHARTS = [(axes(4)[c], [axes(4)[e] for e in PARAMETERS[c]]) for c in range(4)]
 
 
 class PoseBoxes:
-    """The boxes of a witness: checks each, and that no box on the side of the start has a facet in common with one on that of
-    the goal."""
+    """The boxes of a witness, each checked. They are trees, one for each chart, of (low, high, the sides of the boxes in it, its
+    halves)."""
 
     def __init__(self, claim, cells):
         reference, bounds, outside, charts = fields(cells, "reference", "bounds", "outside", "charts")
@@ -461,13 +522,12 @@ class PoseBoxes:
                     "the bounds are too narrow for the reference point")
         else:
             require(outside in ("start", "goal"), "it is not said on which side the outside of the bounds is")
-        self.outside, self.leaves = outside, 0
+        self.outside, self.leaves = outside, []
         self.trees = [self.tree(cell, chart, self.bounds[0] + [-1] * 3, self.bounds[1] + [1] * 3)
                       for chart, cell in enumerate(items(charts, 4))]
 
     def tree(self, cell, chart, low, high):
-        """A box as (low, high, the sides of the boxes in it, its halves)."""
-        if isinstance(cell, dict) and "halves" in cell:
+        if has_key(cell, "halves"):
             axis, at, halves = fields(cell, "axis", "at", "halves")
             index(axis, 6)
             at = number(at)
@@ -475,21 +535,25 @@ class PoseBoxes:
             below, above = items(halves, 2)
             middle = [[at if k == axis else x for k, x in enumerate(end)] for end in (high, low)]
             halves = [self.tree(below, chart, low, middle[0]), self.tree(above, chart, middle[1], high)]
-            self.require_apart(*halves, lambda a, b: self.facet_along(axis, a, b))
             return low, high, halves[0][2] | halves[1][2], halves
-        self.leaves += 1
-        if isinstance(cell, dict) and "side" in cell:
+        side = self.side_of(cell, chart, low, high)
+        self.leaves.append((side, chart, low, high))
+        return low, high, {side}, []
+
+    def side_of(self, cell, chart, low, high):
+        """The side of a box that is not cut; None if no pose in it is free."""
+        if has_key(cell, "side"):
             side = fields(cell, "side")[0]
             require(side in ("start", "goal"), "a box is on no side")
             at_bounds = any(low[k] == self.bounds[0][k] or high[k] == self.bounds[1][k] for k in range(3))
             require(self.outside in (None, side) or not at_bounds, "a box at the bounds is on another side than what is beyond")
-            return low, high, {side}, []
-        if isinstance(cell, dict) and "beyond" in cell:
+            return side
+        if has_key(cell, "beyond"):
             self.check_beyond(chart, low, high, index(fields(cell, "beyond")[0], 6))
         else:
             corners = [[(high if corner >> k & 1 else low)[k] for k in range(3)] for corner in range(8)]
             self.blocking.check(chart, low[3:], high[3:], corners, *fields(cell, "robot", "obstacle", "common"))
-        return low, high, set(), []
+        return None
 
     def check_beyond(self, chart, low, high, side):
         """The robot's origin, R(q) reference away from the positions of the box, is beyond a side of the claim's box."""
@@ -500,194 +564,124 @@ class PoseBoxes:
             require(low[k] - away > self.claim.box[1][k] if upper else high[k] - away < self.claim.box[0][k],
                     "a box is not beyond a side of the claim's box")
 
-    @staticmethod
-    def facet_along(axis, a, b):
-        """Whether the upper facet of one box has an inner point in common with the lower one of another."""
-        return a[1][axis] == b[0][axis] and all(a[0][k] < b[1][k] and b[0][k] < a[1][k] for k in range(6) if k != axis)
+    def meets(self, box, side, low, high):
+        """Whether a box on a side, this one or one in it, has inner points in common with another box; of an axis in which
+        that one has no extent, its value."""
+        own_low, own_high, sides, halves = box
+        return (side in sides and all(a < y and x < b if x < y else a <= x <= b
+                                      for a, b, x, y in zip(own_low, own_high, low, high))
+                and (not halves or any(self.meets(half, side, low, high) for half in halves)))
 
-    @staticmethod
-    def facet_at(at, a, b):
-        """The same of boxes of two charts."""
-        _, here, _, there, end, others = at
-        if a[(1 + end) // 2][here] != end or b[(1 + end) // 2][there] != end:
-            return False
-        spans = [(a[0][k], a[1][k], k) for k in range(3)]
-        spans += [(*sorted((end * a[0][k], end * a[1][k])), other) for k, other in others]
-        return all(low < b[1][k] and b[0][k] < high for low, high, k in spans)
-
-    def require_apart(self, a, b, have_facet):
-        """No box in a on one side has a facet in common with one in b on the other side."""
-        if len(a[2] | b[2]) < 2 or not a[2] or not b[2] or not have_facet(a, b):
-            return
-        require(a[3] or b[3], "a box on the side of the start has a facet in common with one on that of the goal")
-        for half in a[3] or b[3]:
-            self.require_apart(half, b, have_facet) if a[3] else self.require_apart(a, half, have_facet)
+    def check_facets(self):
+        """No box on the side of the start has a facet, or a part of one with an extent, in common with one on that of the goal."""
+        for side, chart, *box in self.leaves:
+            for axis in range(6) if side == "start" else ():
+                for end in box:
+                    low, high = ([*x[:axis], end[axis], *x[axis + 1:]] for x in box)
+                    there = chart
+                    if axis > 2 and abs(end[axis]) == 1:
+                        there, low, high = beyond_seam(chart, PARAMETERS[chart][axis - 3], end[axis], low, high)
+                    require(not self.meets(self.trees[there], "goal", low, high),
+                            "a box on the side of the start has a facet in common with one on that of the goal")
 
     def has(self, side, pose):
         """Whether some box on a side contains a pose."""
         position, q = pose
-        at = placed(mixed_rotation(q, q), self.reference, position)
+        [at] = rotated(q, [self.reference], position)
         if self.outside is not None and any(x < a or x > b for x, a, b in zip(at, *self.bounds)):
             return self.outside == side
         chart = max(range(4), key=lambda c: abs(q[c]))
         at = at + [Fraction(q[e]) / q[chart] for e in PARAMETERS[chart]]
-        open_trees = [self.trees[chart]]
-        for low, high, sides, halves in open_trees:
-            if side in sides and all(a <= x <= b for a, x, b in zip(low, at, high)):
-                if not halves:
-                    return True
-                open_trees += halves
-        return False
+        return self.meets(self.trees[chart], side, at, at)
+
+
+def beyond_seam(c, e, end, low, high):
+    """Where charts meet, component c = 1 and e = end; times the end, e = 1 and c = end. The chart beyond, and a box there."""
+    values = {f: sorted((end * a, end * b)) for f, a, b in zip(PARAMETERS[c], low[3:], high[3:])}
+    values[c] = end, end
+    return e, *([*x[:3], *(values[f][k] for f in PARAMETERS[e])] for k, x in enumerate((low, high)))
 
 
 def check_boxes(claim, cells):
     """A path that meets no blocked box can be moved off the edges of boxes, so it goes through facets, and stays on its
     side."""
     boxes = PoseBoxes(claim, cells)
-    for at in [seam(c, e, end) for c in range(4) for e in range(c + 1, 4) for end in (1, -1)]:
-        boxes.require_apart(boxes.trees[at[0]], boxes.trees[at[2]], lambda a, b, at=at: boxes.facet_at(at, a, b))
+    boxes.check_facets()
     for side, pose in zip(("start", "goal"), claim.poses):
         require(boxes.has(side, pose), f"the {side} is in no box on its side")
-    return f"infeasible: {boxes.leaves} boxes of poses separate start and goal"
+    return f"infeasible: {len(boxes.leaves)} boxes of poses separate start and goal"
 
 
-# Along a chain of arcs: layers of orientations. In each, triangles of positions are blocked; where one layer follows on
+# Layers of orientations, along a chain of arcs. In each, triangles of positions are blocked; where one layer follows on
 # another one, tetrahedra fill what is between their triangles.
 
-def are_parallel(p, q):
-    return all(p[i] * q[j] == p[j] * q[i] for i in range(4) for j in range(i))
-
-
-def unit(v):
-    """The shortest integer vector that is parallel to one, its first number that is not zero positive."""
-    v = integral(v)
-    length = math.gcd(*v) * (1 if next((x for x in v if x), 0) > 0 else -1)
-    require(length, "a triangle has no extent")
-    return tuple(x // length for x in v)
-
-
-def edge_ends(corners):
-    """The ends of a triangle's edges, each with the line of its edge. If these cancel out modulo 2 over some triangles, so do
-    the edges as sets of points, however they are cut."""
-    for a, b in zip(corners, corners[1:] + corners[:1]):
-        along = unit(minus(b, a))
-        line = along, *cross(a, along)
-        yield line, *a
-        yield line, *b
-
-
 def plane_ends(corners):
-    """The same with the plane of the triangle. If these cancel out, so do the triangles."""
+    """The ends of a triangle's edges, each with the line of its edge and the plane of the triangle. If these cancel out, so do the
+    triangles as sets of points."""
     normal = unit(cross(minus(corners[1], corners[0]), minus(corners[2], corners[0])))
     return [(normal, dot(normal, corners[0]), end) for end in edge_ends(corners)]
 
 
-def cancel_out(ends):
-    return all(count % 2 == 0 for count in collections.Counter(ends).values())
-
-
-class Layers:
-    """Checks the layers of a witness: that all in them is blocked, and that it is a cycle modulo 2 of poses."""
-
-    def __init__(self, claim, chain, places, layers):
-        quaternions = [numbers(q, 4) for q in items(chain)]
-        arcs = list(zip(quaternions, quaternions[1:]))
-        require(arcs and all(dot(p, q) > 0 for p, q in arcs), "neighbours in a chain are at least a half turn apart")
-        self.quaternions = quaternions
-        self.places = None if places is None else [index(place, len(quaternions)) for place in items(places, 2)]
-        self.closed = places is None and are_parallel(quaternions[0], quaternions[-1])
-        charts = [(between(p, q, Fraction(1, 2)), [[x / 2 for x in map(Fraction, minus(q, p))]]) for p, q in arcs]
-        points, given = fields(layers, "points", "charts")
-        self.claim, self.blocking = claim, Blocking(claim, charts, [0, 0, 0])
-        self.points = [numbers(point, 3) for point in items(points)]
-        self.barriers, self.closings, self.first = [], [], []
-        for chart, parts in enumerate(items(given, len(charts))):
-            self.first.append(len(self.barriers))
-            self.add_chart(chart, items(parts))
-        self.first.append(len(self.barriers))
-        self.check_cycle()
-
-    def add_chart(self, chart, parts):
-        low = -1
-        for part in parts:
-            until, barrier, closing = fields(part, "until", "barrier", "closing")
-            high = number(until)
-            require(low < high <= 1, "the layers of a chart do not go from -1 up to 1")
-            self.barriers.append([self.simplex(3, chart, low, high, given) for given in items(barrier)])
-            self.closings.append([self.simplex(4, chart, high, high, given) for given in items(closing)])
-            low = high
-        require(low == 1, "the layers of a chart do not go from -1 up to 1")
-
-    def simplex(self, count, chart, low, high, given):
-        """The corners of a triangle or tetrahedron: beyond a side of the box, or two pieces overlap on all of it."""
-        hit = isinstance(given, dict) and "robot" in given
-        numbers_of_corners, *pair = fields(given, "corners", *(("robot", "obstacle", "common") if hit else ()))
-        corners = [self.points[index(c, len(self.points))] for c in items(numbers_of_corners, count)]
-        if hit:
-            self.blocking.check(chart, [low], [high], corners, *pair)
-        require(hit or beyond_a_side(self.claim.box, corners), "a position in a layer may be free")
-        return corners
-
-    def check_cycle(self):
-        for i, (barrier, closing) in enumerate(zip(self.barriers, self.closings)):
-            require(cancel_out(end for triangle in barrier for end in edge_ends(triangle)), "the triangles of a layer have a border")
-            if i + 1 == len(self.barriers) and not self.closed:
-                require(not closing, "no layer follows on the last one")
-                return
-            sides = [solid[:k] + solid[k + 1:] for solid in closing for k in range(4)]
-            triangles = barrier + self.barriers[(i + 1) % len(self.barriers)] + sides
-            require(cancel_out(end for triangle in triangles for end in plane_ends(triangle)), "there is a gap between two layers")
-
-    def is_inside(self, end):
-        """Whether a ray from the start (0) or the goal (1) crosses the triangles of its layer an odd number of times."""
-        position, q = self.claim.poses[end]
-        place = next((i for i, p in enumerate(self.quaternions) if are_parallel(p, q)), None) if self.places is None else self.places[end]
-        require(place is not None and are_parallel(self.quaternions[place], q), "the quaternion of a pose is not in the chain")
-        return crosses_odd(self.barriers[min(self.first[place], len(self.barriers) - 1)], position)
-
-
-def check_layers(claim, chain, places, witness):
+def check_layers(claim, chain, places, layers):
     """The triangles at all orientations of their layers, and the tetrahedra, are a cycle modulo 2 in the space of poses, and no
-    pose on it is free. What it separates is told by rays."""
-    layers = Layers(claim, chain, places, witness)
-    require(layers.is_inside(0) != layers.is_inside(1), "start and goal are on the same side of the barrier")
-    return f"infeasible: a barrier in {len(layers.barriers)} layers of orientations separates start and goal"
+    pose on it is free."""
+    quaternions = [numbers(q, 4) for q in items(chain)]
+    arcs = list(zip(quaternions, quaternions[1:]))
+    require(arcs and all(dot(p, q) > 0 for p, q in arcs), "neighbours in a chain are at least a half turn apart")
+    orientations = [unit(q) for q in quaternions]
+    blocking = Blocking(claim, [arc(p, q) for p, q in arcs], [0, 0, 0])
+    points, charts = fields(layers, "points", "charts")
+    points = [numbers(point, 3) for point in items(points)]
+    barriers, closings, firsts = [], [], []
+    for chart, parts in enumerate(items(charts, len(arcs))):
+        firsts.append(len(barriers))
+        for low, high, barrier, closing in intervals(parts, -1, "barrier", "closing"):
+            blocked = functools.partial(blocking.check, chart, [low], [high])
+            barriers.append([simplex(claim, points, 3, triangle, blocked) for triangle in items(barrier)])
+            blocked = functools.partial(blocking.check, chart, [high], [high])
+            closings.append([simplex(claim, points, 4, solid, blocked) for solid in items(closing)])
+    firsts.append(len(barriers) - 1)  # the last quaternion is in the last layer
+
+    for barrier, following, closing in zip(barriers, barriers[1:] + barriers[:1], closings):
+        require(have_no_border(barrier), "the triangles of a layer have a border")
+        sides = [solid[:k] + solid[k + 1:] for solid in closing for k in range(4)]
+        is_open = closing is closings[-1] and (places is not None or orientations[0] != orientations[-1])
+        require(not sides if is_open else cancel_out(end for triangle in barrier + following + sides for end in plane_ends(triangle)),
+                "no layer follows on the last one" if is_open else "there is a gap between two layers")
+
+    if places is not None:
+        places = [index(place, len(quaternions)) for place in items(places, 2)]
+    inside = []
+    for end, (position, q) in enumerate(claim.poses):
+        require(unit(q) in orientations, "the quaternion of a pose is not in the chain")
+        place = orientations.index(unit(q)) if places is None else places[end]
+        require(orientations[place] == unit(q), "the quaternion of a pose is not at its place in the chain")
+        inside.append(crosses_odd(barriers[firsts[place]], position))
+    require(inside[0] != inside[1], "start and goal are on the same side of the barrier")
+    return f"infeasible: a barrier in {len(barriers)} layers of orientations separates start and goal"
 
 
-def check_no_rigid_path(claim, witness):
-    rotations, places = claim["rotations"], claim.get("places")
-    require(places is not None or "places" not in claim, "there are no places in the chain")
-    claim = PathClaim({key: value for key, value in claim.items() if key not in ("rotations", "places")})
+def check_infeasible(claim, witness):
+    if "rotations" not in claim:
+        return check_no_translation(claim, witness)
+    claim = PathClaim(claim, "rotations", *(["places"] if "places" in claim else []))
+    rotations, *places = claim.others
     require(len(claim.poses) == 2, "expected start and goal")
-    if rotations != "all":
-        return check_layers(claim, rotations, places, fields(witness, "layers")[0])
-    require(places is None, "only a chain has places")
-    return check_boxes(claim, fields(witness, "cells")[0])
+    if rotations == "all":
+        require(not places, "only a chain has places")
+        return check_boxes(claim, fields(witness, "cells")[0])
+    require(places != [None], "there are no places in the chain")
+    return check_layers(claim, rotations, places[0] if places else None, fields(witness, "layers")[0])
 
 
 # Cones of directions, in each of which contacts block the way.
-
-def outer_planes(vectors):
-    """The outward normals of the planes through two of the vectors that have all of them on one side: those around the
-    cone that the vectors span, if that is neither flat nor all of space."""
-    vectors = [integral(v) for v in vectors]
-    found = []
-    for i, u in enumerate(vectors):
-        for v in vectors[:i]:
-            normal = cross(u, v)
-            sides = {sign(dot(normal, w)) for w in vectors}
-            if sides in ({0, -1}, {0, 1}):
-                found.append(normal if -1 in sides else minus([0, 0, 0], normal))
-    return found
-
 
 def blocked_cone(piece, ours, other, theirs):
     """Two pieces with a point in common, each a weighted sum of its vertices: the first one overlaps the second one as soon as
     it moves in a direction of the inside of the cone of the vectors from the point to the second one and from the first one
     to the point. Returns the normals around that cone."""
-    point = weighted_sum(piece, numbers(ours, len(piece)), False)
-    require(point == weighted_sum(other, numbers(theirs, len(other)), False), "two pieces have not the point in common")
-    normals = outer_planes([minus(vertex, point) for vertex in other] + [minus(point, vertex) for vertex in piece])
+    point = common_point(piece, ours, other, theirs, False)
+    normals = outward_normals([minus(vertex, point) for vertex in other] + [minus(point, vertex) for vertex in piece])
     require(normals, "two pieces of a contact overlap, or are flat")
     return normals
 
@@ -698,7 +692,7 @@ def uncut_cones(octants, frame, middle):
     waiting = [(cone, [[-x for x in vector] if octant >> k & 1 else vector for k, vector in enumerate(frame)])
                for octant, cone in enumerate(items(octants, 8))]
     for cone, corners in waiting:
-        if not isinstance(cone, dict) or "edge" not in cone:
+        if not has_key(cone, "edge"):
             yield cone, corners
             continue
         edge, halves = fields(cone, "edge", "halves")
@@ -708,27 +702,24 @@ def uncut_cones(octants, frame, middle):
                     for half, end in zip(items(halves, 2), (after, edge))]
 
 
-AXES_OF_SPACE = [[int(i == k) for i in range(3)] for k in range(3)]
-
-
-# That no set of parts can begin to move: in each cone all parts are tied together.
+# What cannot begin to move: in each cone of directions all parts are tied together.
 
 def check_contact(parts, contact):
     """Returns both parts and the normals around the cone of directions that is blocked."""
     first, second, common = fields(contact, "first", "second", "common")
-    pieces_of_contact = []
+    touching = []
     for piece, weights in zip((first, second), fields(common, "first", "second")):
         part, place = items(piece, 2)
-        pieces_of_contact += [parts[index(part, len(parts))][index(place, len(parts[part]))], weights]
+        its_pieces = parts[index(part, len(parts))]
+        touching += [its_pieces[index(place, len(its_pieces))].vertices, weights]
     require(first[0] != second[0], "a part does not touch itself")
-    return first[0], second[0], blocked_cone(*pieces_of_contact)
+    return first[0], second[0], blocked_cone(*touching)
 
 
 def reaches_all(count, ties, start):
     """Whether all parts are reached from the first one, by ties from their end `start` to the other one."""
     known, waiting = {0}, [0]
-    while waiting:
-        part = waiting.pop()
+    for part in waiting:
         new = {tie[1 - start] for tie in ties if tie[start] == part} - known
         known |= new
         waiting += new
@@ -737,17 +728,13 @@ def reaches_all(count, ties, start):
 
 def check_inseparable(claim, witness):
     _, named = fields(claim, "status", "parts")
-    names, parts = [], []
-    for part in items(named):
-        name, its_pieces = fields(part, "name", "pieces")
-        require(isinstance(name, str) and name not in names, "parts have names, each its own")
-        names.append(name)
-        parts.append(pieces(its_pieces))
+    claimed = [fields(part, "name", "pieces") for part in items(named)]
+    names, parts = [name for name, _ in claimed], [pieces(its_pieces) for _, its_pieces in claimed]
+    require(all(isinstance(name, str) for name in names) and len(set(names)) == len(names), "parts have names, each its own")
     require(len(parts) > 1, "the claim has less than two parts")
     given, octants = fields(witness, "contacts", "octants")
     contacts = [check_contact(parts, contact) for contact in items(given)]
-    count = 0
-    for cone, corners in uncut_cones(octants, AXES_OF_SPACE, lambda a, b: [x + y for x, y in zip(a, b)]):
+    for count, (cone, corners) in enumerate(uncut_cones(octants, axes(3), lambda a, b: [x + y for x, y in zip(a, b)]), 1):
         ties = []
         for way, blocked in zip((1, -1), fields(cone, "first_blocked", "second_blocked")):
             for contact in items(blocked):
@@ -756,20 +743,20 @@ def check_inseparable(claim, witness):
                         "a contact does not block all directions of a cone")
                 ties.append((a, b)[::way])
         require(all(reaches_all(len(parts), ties, start) for start in (0, 1)), "in some directions a set of parts is not blocked")
-        count += 1
     return f"inseparable: no set of {len(parts)} parts can begin to move, in {count} cones of directions"
 
 
-# That passages are tight: in each cone one contact blocks all that does not lead along the passage.
+# Tight passages: in each cone one contact blocks all that does not lead along the passage.
 
 def tight_frame(along):
     """Three vectors that span space, those of the passage first."""
-    axes = list(AXES_OF_SPACE)
+    frame = axes(3)
     if len(along) == 1 and any(along[0]):
         first = next(k for k in range(3) if along[0][k])
-        axes[first] = axes[0]
-        return [along[0], *axes[1:]]
-    frame = [*along, cross(*along)] if len(along) == 2 else axes
+        frame[first] = frame[0]
+        return [along[0], *frame[1:]]
+    if len(along) == 2:
+        frame = [*along, cross(*along)]
     require(len(along) in (0, 2) and all(map(any, frame)), "a passage needs at most two vectors, linearly independent")
     return frame
 
@@ -778,21 +765,20 @@ def is_along(along, direction):
     """Whether a direction is in the span of the vectors of the passage."""
     if len(along) == 2:
         return dot(cross(*along), direction) == 0
-    return len(along) == 1 and not any(cross(along[0], direction))
+    return len(along) == 1 and unit(along[0]) == unit(direction)
 
 
 def tight_contact(claim, position, contact):
     """The normals around the cone of directions that a contact blocks: of two pieces, or at a side of the box."""
-    if isinstance(contact, dict) and "side" in contact:
+    if has_key(contact, "side"):
         side = index(fields(contact, "side")[0], 6)
         upper, axis = divmod(side, 3)
         require(claim.box is not None and position[axis] == claim.box[upper][axis], "the position is not on that side of the box")
-        return [[(-1 if upper else 1) if k == axis else 0 for k in range(3)]]
+        return [[(-1 if upper else 1) * x for x in axes(3)[axis]]]
     i, j, common = fields(contact, "robot", "obstacle", "common")
-    piece = [[x + at for x, at in zip(vertex, position)] for vertex in claim.robot[index(i, len(claim.robot))]]
-    obstacle = claim.obstacles[index(j, len(claim.obstacles))]
+    piece, obstacle = claim.pair(i, j)
     ours, theirs = fields(common, "robot", "obstacle")
-    return blocked_cone(piece, ours, obstacle, theirs)
+    return blocked_cone(rotated([1, 0, 0, 0], piece.vertices, position), ours, obstacle.vertices, theirs)
 
 
 def balanced_sum(a, b):
@@ -804,12 +790,10 @@ def balanced_sum(a, b):
 
 
 def check_tight(claim, witness):
-    require(isinstance(claim, dict) and "along" in claim, "the claim does not say along what passages lead")
-    passages = [[numbers(vector, 3) for vector in items(along)] for along in items(claim["along"])]
-    claim = PathClaim({key: value for key, value in claim.items() if key != "along"})
+    claim = PathClaim(claim, "along")
+    passages = [[numbers(vector, 3) for vector in items(along)] for along in items(claim.others[0], len(claim.poses))]
     require(claim.contact_allowed, "without contact no passage is tight")
     places = items(fields(witness, "places")[0], len(claim.poses))
-    require(len(passages) == len(claim.poses), "each pose needs the vectors of its passage")
     for pose, along, place in zip(claim.poses, passages, places):
         position, quaternion = pose
         require(quaternion == [1, 0, 0, 0] and claim.in_box(position), "a pose is turned, or outside the box")
@@ -825,16 +809,10 @@ def check_tight(claim, witness):
     return f"tight: {len(places)} passage" + "s" * (len(places) != 1)
 
 
-def of_path(check_witness):
-    return lambda claim, witness: check_witness(PathClaim(claim), witness)
+# Files.
 
-
-def check_any_infeasible(claim, witness):
-    return check_no_rigid_path(claim, witness) if "rotations" in claim else of_path(check_infeasible)(claim, witness)
-
-
-CHECKS = {"path": of_path(check_free_path), "blocked": of_path(check_blocked_path),
-          "infeasible": check_any_infeasible, "inseparable": check_inseparable, "tight": check_tight}
+CHECKS = {"path": check_free_path, "blocked": check_blocked_path, "infeasible": check_infeasible,
+          "inseparable": check_inseparable, "tight": check_tight}
 
 
 def check(text, claim_digest=None):

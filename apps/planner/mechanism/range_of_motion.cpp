@@ -3,13 +3,15 @@
 // Status at a rational value is that of two MotionChecker, one that allows contact and one that does not. At an event
 // it follows from the values on both sides: colliding is open, touching or colliding is closed. Where both sides
 // collide, or both are free, the pieces that have an event there are compared in its own field. An event of a screw has
-// no such field, but is an interval: what its pieces do in all of it is known in doubles, or is not.
+// no such field, but is an interval: what its pieces do in all of it is known in doubles, or by a slider at one turn,
+// or is not.
 #include "apps/planner/mechanism/range_of_motion.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "apps/planner/intersection/hulls_apart.h"
@@ -223,12 +225,16 @@ class RangeSearch {
     QuadraticRoot value;
     std::vector<std::pair<Pair, ContactItems>> items;
     std::optional<std::array<Rational, 2>> between;  // of a screw, if the value is not known exactly
+    std::optional<QuadraticRoot> algebraic;          // that value, if it is known to be this one
     bool single = true;                              // exactly one value, whatever it is
 
     [[nodiscard]] std::array<Rational, 2> bounds(unsigned bits) const {
       return between ? *between : enclosure(value, bits);
     }
-    [[nodiscard]] RangeEnd end(std::vector<ContactPair> stops = {}) const { return {value, between, std::move(stops)}; }
+    [[nodiscard]] RangeEnd end(std::vector<ContactPair> stops = {}) const {
+      if (algebraic) return {*algebraic, std::nullopt, std::move(stops)};
+      return {value, between, std::move(stops)};
+    }
   };
 
   // The value in doubles. A nearest double is off by 2^-53 of it, a root by as much again.
@@ -263,7 +269,7 @@ class RangeSearch {
     std::vector<Event> events;
     for (Found& event : found) {
       if (events.empty() || compare(events.back().value, event.value) != 0) {
-        events.push_back({std::move(event.value), {}, std::nullopt, true});
+        events.push_back({std::move(event.value), {}, std::nullopt, std::nullopt, true});
       }
       events.back().items.emplace_back(event.pair, event.items);
     }
@@ -292,16 +298,16 @@ class RangeSearch {
     products_.clear();
     struct Found {
       Event event;
-      std::optional<QuadraticRoot> algebraic;
       std::size_t product = 0;
     };
     std::vector<Found> found;
     for (auto& [key, group] : groups) {
       monitor_.check_interruption();
       for (const ScrewRoot& root : roots_of(group.product, {from, to})) {
-        Event event{root.exact ? *root.exact : QuadraticRoot(root.low), group.items, std::nullopt, root.single};
+        Event event{root.exact ? *root.exact : QuadraticRoot(root.low), group.items, std::nullopt, root.algebraic,
+                    root.single};
         if (!root.exact) event.between = {root.low, root.high};
-        found.push_back({std::move(event), root.algebraic, products_.size()});
+        found.push_back({std::move(event), products_.size()});
       }
       products_.push_back(std::move(group.product));
     }
@@ -313,7 +319,8 @@ class RangeSearch {
       if (!a.event.between || !b.event.between) {
         return !a.event.between && !b.event.between && compare(a.event.value, b.event.value) == 0;
       }
-      if (a.algebraic || b.algebraic) return a.algebraic && b.algebraic && compare(*a.algebraic, *b.algebraic) == 0;
+      const auto& [x, y] = std::tie(a.event.algebraic, b.event.algebraic);
+      if (x || y) return x && y && compare(*x, *y) == 0;
       return a.product != b.product && have_equal_quotients(products_[a.product], products_[b.product]);
     };
     std::vector<Event> events;
@@ -339,6 +346,7 @@ class RangeSearch {
       } else {
         last.between = {std::min(before[0], now[0]), std::max(before[1], now[1])};
         last.single = false;
+        last.algebraic.reset();
       }
       last.value = (*last.between)[0];
     }
@@ -381,7 +389,7 @@ class RangeSearch {
     return event.single ? event.end() : RangeEnd{(*event.between)[1], std::nullopt, {}};
   }
 
-  static Event end_of_cell(const Rational& value) { return {value, {}, std::nullopt, true}; }
+  static Event end_of_cell(const Rational& value) { return {value, {}, std::nullopt, std::nullopt, true}; }
 
   // Is the status of a value what pose() tells, whose position may be a little off? No product changes its sign there.
   [[nodiscard]] bool is_typical(const ScrewPart& part, const Rational& value) const {
@@ -415,7 +423,9 @@ class RangeSearch {
     const bool collides_before = before == RangeStatus::kColliding;
     const bool collides_after = after == RangeStatus::kColliding;
     if (event.between && before == after && before != RangeStatus::kTouching) {
-      return stays(event, before, beside.pairs) ? before : RangeStatus::kUndecided;
+      if (stays(event, before, beside.pairs)) return before;
+      const bool is_rational = event.algebraic && event.algebraic->is_rational();
+      return is_rational ? status_at_turn(event.algebraic->rational) : RangeStatus::kUndecided;
     }
     if (!event.single) return RangeStatus::kUndecided;
     if (collides_before && collides_after) {
@@ -429,6 +439,24 @@ class RangeSearch {
   bool stays(const Event& event, RangeStatus status, const std::vector<Pair>& pairs) {
     const Joint::Sweep sweep = m_.joint.sweep((*event.between)[0], (*event.between)[1], 0);
     return status == RangeStatus::kFree ? not_apart(sweep.all, &pairs).empty() : all_collide(sweep, pairs);
+  }
+
+  // Of a screw at a rational turn. The number of quarters is transcendental there, and the values of a slider at which
+  // something changes are rational, so nothing changes if it is enclosed narrowly enough.
+  RangeStatus status_at_turn(const Rational& turn) {
+    if (m_.joint.direction() == Rational3{}) return status_at(turn);
+    const Quaternion q = m_.joint.pose(turn).quaternion;
+    Mechanism slide;
+    slide.moving = transform(sets_.moving, {rotation_between(q, q), Rational3{}}, monitor_);
+    slide.fixed = sets_.fixed;
+    slide.joint = Joint::slider(m_.joint.direction());
+    for (unsigned bits = kSampleBits;; bits *= 2) {
+      const std::array<Rational, 2> way = quarters(turn, bits);
+      slide.low = way[0];
+      slide.high = way[1];
+      const RangeOfMotion range = range_of_motion(slide, monitor_);
+      if (range.parts.size() == 1) return range.parts.front().status;
+    }
   }
 
   // Does a pair that has an event touch there? None overlaps next to it.

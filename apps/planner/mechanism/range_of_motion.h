@@ -35,7 +35,7 @@ struct ContactPair {
 
 /// An end of a part of the range.
 struct RangeEnd {
-  QuadraticRoot value;  ///< exact, except of a screw, and next to an undecided part, where it is a bound
+  QuadraticRoot value;  ///< exact, but for most ends of a screw, and next to an undecided part, where it is a bound
   /// Of a screw, where it is not exact: two turns 2^-64 apart that enclose it, of which `value` is the first one.
   std::optional<std::array<Rational, 2>> between;
   std::vector<ContactPair> stops;  ///< items that touch there, if something changes there
@@ -60,11 +60,11 @@ struct RangeOfMotion {
 /// something collides all the time, are done; in the others all contact events (contact_events.h) of the pieces that
 /// come near are found, and each value between two of them is checked exactly, as are the events themselves. So hinges
 /// and sliders are decided completely. The events of a screw are transcendental, unless they are at a multiple of 30 or
-/// 45 degrees: they are enclosed in intervals 2^-64 wide, each the only zero of its product, and what holds there
-/// follows from both sides. Undecided are values at which bodies only graze, or at which different products may have a
-/// common zero. Four-bar linkages, whose contact is algebraic of a high degree, are bisected until what is undecided is
-/// as narrow as doubles allow, some 1e-9 of a quarter, or there are 8000 cells in a 16th of a quarter. Throws
-/// InputError if the bars of a linkage do not meet in all of the range.
+/// 45 degrees or do not depend on its way: they are enclosed in intervals 2^-64 wide, each the only zero of its
+/// product, and what holds there follows from both sides. Undecided are other values at which bodies only graze, or at
+/// which different products may have a common zero. Four-bar linkages, whose contact is algebraic of a high degree, are
+/// bisected until what is undecided is as narrow as doubles allow, some 1e-9 of a quarter, or there are 8000 cells in a
+/// 16th of a quarter. Throws InputError if the bars of a linkage do not meet in all of the range.
 RangeOfMotion range_of_motion(const Mechanism& mechanism, const Monitor& monitor = {});
 
 }  // namespace nef::planner

@@ -236,6 +236,21 @@ std::array<Rational, 5> multiplied(const Form& a, const Form& b) {
           3 * (a[1] * b[2] + a[2] * b[1]), 6 * a[2] * b[2]};
 }
 
+// The zeros of a product that does not depend on the way of the screw.
+std::vector<ScrewRoot> roots_without_way(const ScrewProduct& product, const ScrewPart& part) {
+  std::vector<ScrewRoot> roots;
+  const std::array<ExactTurn, 5> known = exact_turns(floor_of(part.from));
+  for (const QuadraticRoot& turn : common_zeros(product, part)) {
+    const std::array<Rational, 2> bounds = enclosure(turn, kRootBits);
+    ScrewRoot root{std::max(bounds[0], part.from), std::min(bounds[1], part.to), {}, turn, true};
+    if (std::any_of(known.begin(), known.end(), [&](const ExactTurn& at) { return compare(at.turn, turn) == 0; })) {
+      root.exact = turn;
+    }
+    roots.push_back(std::move(root));
+  }
+  return roots;
+}
+
 }  // namespace
 
 std::array<Rational, 2> quarter_share(const Rational& half_tangent, unsigned bits) {
@@ -283,6 +298,7 @@ std::array<Rational, 6> ScrewProduct::normalized() const {
 }
 
 std::vector<ScrewRoot> roots_of(const ScrewProduct& product, const ScrewPart& part) {
+  if (is_zero_form(product.along)) return roots_without_way(product, part);
   const RationalBounds begin = quarters_of(part.from);
   const RationalBounds end = quarters_of(part.to);
   std::vector<ScrewRoot> roots =

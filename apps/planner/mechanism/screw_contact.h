@@ -59,7 +59,7 @@ struct ScrewRoot {
   std::optional<QuadraticRoot> exact;
   /// It is this one, a common zero of P and Q.
   std::optional<QuadraticRoot> algebraic;
-  /// False if there may be no zero or several there, as where a product touches zero.
+  /// False if there may be no zero or several there, as where a product with a Q touches zero.
   bool single = true;
 };
 

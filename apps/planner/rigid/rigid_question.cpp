@@ -14,4 +14,10 @@ RigidQuestion rigid_question_of(const Scene& scene) {
   return {{*scene.start, start}, {*scene.goal, goal}};
 }
 
+std::optional<Collision> find_collision(const Scene& scene, const RigidPose& pose, const Monitor& monitor) {
+  Scene there = scene;
+  there.robot = transform(scene.robot, map_of({Rational3{}, pose.quaternion}), monitor);
+  return find_collision(there, pose.position, monitor);
+}
+
 }  // namespace nef::planner

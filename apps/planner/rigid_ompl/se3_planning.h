@@ -20,7 +20,7 @@ void set_pose(const RigidPose& pose, ompl::base::State* state);
     states, certified motions, start and goal. Any planner of OMPL may be set; without one OMPL chooses.
 
     States are doubles, so the start and the goal that a planner sees are rounded: a robot that touches something there
-    may collide after rounding, and then the planner finds nothing. */
+    may collide after rounding, and then the planner finds nothing: ask getSpaceInformation()->isValid. */
 class SE3Planning : public ompl::geometric::SimpleSetup {
  public:
   /** \brief `checker` must be that of the scene. Throws InputError as rigid_question_of does. */

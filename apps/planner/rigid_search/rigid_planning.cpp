@@ -142,10 +142,8 @@ std::optional<RigidAnswer> invalid_rigid_end(const Scene& scene, const MotionChe
   for (const auto& [pose, status] : {std::pair(&question.start, RigidAnswer::Status::kInvalidStart),
                                      std::pair(&question.goal, RigidAnswer::Status::kInvalidGoal)}) {
     if (checker.check(*pose).status == MotionVerdict::Status::kFree) continue;
-    Scene there = scene;
-    there.robot = transform(scene.robot, map_of({Rational3{}, pose->quaternion}), monitor);
     RigidAnswer answer;
-    answer.collision = find_collision(there, pose->position, monitor);
+    answer.collision = find_collision(scene, *pose, monitor);
     answer.status = status;
     return answer;
   }

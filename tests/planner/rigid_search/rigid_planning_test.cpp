@@ -30,12 +30,6 @@ RigidAnswer answer_of(const Scene& scene, const RigidLimits& limits = {}, const 
   return find_rigid_path(scene, MotionChecker::of_scene(scene), limits, monitor);
 }
 
-bool collides(const Scene& scene, const RigidPose& pose) {
-  Scene there = scene;
-  there.robot = transform(scene.robot, {map_of(pose).linear, Rational3{}});
-  return find_collision(there, pose.position).has_value();
-}
-
 bool in_lowest_terms(const Rational& x) {
   Rational reduced = x;
   reduced.canonicalize();
@@ -66,7 +60,7 @@ void check_path(const Scene& scene, const RigidAnswer& answer, std::size_t poses
       const RigidPose pose = motion.at(s);
       // Positions in between are rounded, so poses with contact are left to the checker, which says that they are free.
       if (checker.check(pose).status == MotionVerdict::Status::kFree) {
-        CHECK_FALSE(collides(scene, pose));
+        CHECK_FALSE(find_collision(scene, pose));
       } else {
         CHECK(answer.certified.motions[i].touches);
       }
@@ -238,7 +232,7 @@ TEST_CASE("Random scenes: ways of a grid of poses are found, and paths are free"
     const RigidAnswer answer = answer_of(scene, {.max_slices = 40, .max_samples = 2000, .max_boxes = 1000});
     const RigidQuestion question = rigid_question_of(scene);
     if (answer.status == Status::kInvalidStart || answer.status == Status::kInvalidGoal) {
-      CHECK(collides(scene, answer.status == Status::kInvalidStart ? question.start : question.goal));
+      CHECK(find_collision(scene, answer.status == Status::kInvalidStart ? question.start : question.goal));
     } else if (answer.status == Status::kPath) {
       ++found;
       check_path(scene, answer, 12);

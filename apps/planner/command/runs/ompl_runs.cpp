@@ -7,6 +7,7 @@
 // each run, and columns for T, J and proofs.
 #include "apps/planner/command/runs/ompl_runs.h"
 
+#include <ompl/base/goals/GoalState.h>
 #include <ompl/tools/benchmark/Benchmark.h>
 #include <ompl/util/Console.h>
 
@@ -74,6 +75,19 @@ ob::PlannerPtr planner_for_turning(const std::string& name, const ob::SpaceInfor
     throw InputError("TightPlanner only translates; without --ompl the planner for robots that turn is used");
   }
   return planner;
+}
+
+// What a planner would only report as not found.
+void require_free_doubles(SE3Planning& setup, const std::string& scene) {
+  const ob::ProblemDefinition& problem = *setup.getProblemDefinition();
+  const auto require = [&](const char* name, const ob::State* state) {
+    if (setup.getSpaceInformation()->isValid(state)) return;
+    throw InputError(scene + ": the " + name +
+                     " is free, but not once it is rounded to the doubles of OMPL's states; " +
+                     "move it away from what it touches, or leave out --ompl");
+  };
+  require("start", problem.getStartState(0));
+  require("goal", problem.getGoal()->as<ob::GoalState>()->getState());
 }
 
 // The path with rounded way-points.
@@ -178,6 +192,7 @@ RigidAnswer run_rigid_ompl(const Scene& scene, const std::shared_ptr<const Motio
   const QuietOmpl quiet;
   SE3Planning setup(scene, checker);
   setup.setPlanner(planner_for_turning(planner, setup.getSpaceInformation()));
+  require_free_doubles(setup, scene.name);
   solve_watched(setup, seconds, monitor);
   RigidAnswer answer;
   if (!setup.haveExactSolutionPath()) return answer;

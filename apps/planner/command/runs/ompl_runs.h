@@ -45,7 +45,8 @@ TurningAnswer run_turning_ompl(const Scene& scene, const std::string& planner, d
                                const Monitor& monitor = {});
 
 /// Runs a planner on the question of a scene whose robot turns freely; `checker` must be that of the scene. kPath:
-/// every motion was certified once more. kUndecided: no answer in time. Throws Interrupted if the monitor stops it.
+/// every motion was certified once more. kUndecided: no answer in time. Throws Interrupted if the monitor stops it, and
+/// InputError if the start or the goal is free but not in OMPL's doubles.
 RigidAnswer run_rigid_ompl(const Scene& scene, const std::shared_ptr<const MotionChecker>& checker,
                            const std::string& planner, double seconds, const Monitor& monitor = {});
 

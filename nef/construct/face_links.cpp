@@ -26,6 +26,7 @@ KnownLinks FaceLinks::links(const Complex& made, const SolidFaces& faces, std::s
 void FaceLinks::pair_edges(const Complex& made, std::span<const FaceCorner> corners,
                            std::span<const std::uint32_t> first, KnownLinks& known) const {
   known.twin.assign(made.svertex_count(), HalfedgeId());
+  std::size_t paired = 0;
   for (std::uint32_t v = 0; v + 1 < first.size(); ++v) {
     for (const FaceCorner& corner : corners.subspan(first[v], first[v + 1] - first[v])) {
       const std::uint32_t w = corner.next;
@@ -38,9 +39,11 @@ void FaceLinks::pair_edges(const Complex& made, std::span<const FaceCorner> corn
         if (!back.valid()) continue;
         known.twin[there] = back;
         known.twin[back] = there;
+        paired += 2;
       }
     }
   }
+  if (paired == made.svertex_count()) return;
   for (const VertexId v : made.vertex_ids()) {
     const IdRange<HalfedgeId> here = made.halfedges(v);
     if (std::any_of(here.begin(), here.end(), [&](HalfedgeId h) { return !known.twin[h].valid(); })) {
@@ -50,7 +53,6 @@ void FaceLinks::pair_edges(const Complex& made, std::span<const FaceCorner> corn
 }
 
 void FaceLinks::list_facets(const Complex& made, const SolidFaces& faces, KnownLinks& known) const {
-  std::vector<bool> is_known(made.shalfedge_count(), false);
   known.facets.reserve(faces.plane.size());
   known.cycle_begin.reserve(faces.plane.size() + 1);
   known.corners.reserve(faces.corners.size());
@@ -62,7 +64,6 @@ void FaceLinks::list_facets(const Complex& made, const SolidFaces& faces, KnownL
     const auto cycle = known.corners.begin() + base;
     if (faces.plane[f].flipped()) std::reverse(cycle, known.corners.end());
     std::rotate(cycle, std::min_element(cycle, known.corners.end()), known.corners.end());
-    for (const SHalfedgeId corner : ring) is_known[corner.index()] = true;
     Facet& facet = known.facets.emplace_back();
     facet.plane = made.shalfedge_plane[*cycle];
     facet.first_cycle = CycleId{known.cycle_begin.size() - 1};
@@ -78,6 +79,9 @@ void FaceLinks::list_facets(const Complex& made, const SolidFaces& faces, KnownL
     if (known.facets[i - 1].plane.row() != row) continue;
     if (known.mixed_rows.empty() || known.mixed_rows.back() != row) known.mixed_rows.push_back(row);
   }
+  if (2 * known.corners.size() == made.shalfedge_count() && made.sloops.empty()) return;
+  std::vector<bool> is_known(made.shalfedge_count(), false);
+  for (const SHalfedgeId corner : known.corners) is_known[corner.index()] = true;
   for (const SHalfedgeId e : made.shalfedge_ids()) {
     if (!is_known[e.index()] && !made.shalfedge_plane[e].flipped()) known.loose_corners.push_back(e);
   }

@@ -16,6 +16,7 @@ bool Terrains::is_terrain(std::span<const std::uint32_t> triangles) {
     if (views == 0) return false;
   }
   collect_border(triangles);
+  if (border_.size() > triangles.size()) return false;  // small pieces beside each other
   const int view = std::countr_zero(views);
   try {
     return test_.surrounds_once(border_, static_cast<std::size_t>(view / 2), view % 2 == 0 ? 1 : -1, monitor_);

@@ -26,8 +26,9 @@ class Terrains {
   Terrains(const MeshPoints& points, const VertexStars& stars, std::span<const VertexStars::Triangle> triangles,
            const Monitor& monitor);
 
-  /// True if these triangles are found to be a terrain. O(n + k log k) for k sides at the border of n triangles unless
-  /// a line crosses very many of them; much less as a rule where no axis sees all of them from one side.
+  /// True if these triangles are found to be a terrain. Those with more sides at their border than there are triangles
+  /// are not tested. O(n + k log k) for k sides at the border of n triangles unless a line crosses very many of them;
+  /// much less as a rule where no axis sees all of them from one side.
   bool is_terrain(std::span<const std::uint32_t> triangles);
 
  private:

@@ -5,6 +5,7 @@
 #include <catch2/catch.hpp>
 #include <map>
 #include <random>
+#include <string>
 #include <tuple>
 #include <utility>
 #include <variant>
@@ -105,7 +106,9 @@ TEST_CASE("Solids with rings that are read are those with rings that are drawn, 
     CHECK(read.twin == drawn.twin);
     CHECK(read.corners == drawn.corners);
     CHECK(read.cycle_begin == drawn.cycle_begin);
-    CHECK(native_binary(Polyhedron(std::move(read))) == native_binary(Polyhedron(std::move(drawn))));
+    const std::string bytes_of_read = native_binary(Polyhedron(std::move(read)));
+    const std::string bytes_of_drawn = native_binary(Polyhedron(std::move(drawn)));
+    CHECK(bytes_of_read == bytes_of_drawn);
   }
 }
 

@@ -16,6 +16,7 @@ struct FaceCorner {
   std::uint32_t face;
   std::uint32_t next;  ///< points
   std::uint32_t previous;
+  std::uint32_t position;  ///< among the corners of all faces
 };
 
 /// Reads the sphere maps of ordinary vertices of a closed surface off their faces, without drawing them: those around
@@ -30,6 +31,9 @@ class PlainRing {
   /// Reads the vertex at a point from its corners; the first one begins the ring. False if it is no plain ring, if it
   /// is a long one, or if doubles can not tell the directions of its edges. O(n^2) for the few corners of a vertex.
   [[nodiscard]] bool read(std::uint32_t point, std::span<const FaceCorner> corners);
+
+  /// The corners of the vertex that was read, in the order of the ring.
+  [[nodiscard]] std::span<const FaceCorner> corners() const { return ring_; }
 
   /// The planes of the corners of the vertex that was read, in the order of the ring.
   [[nodiscard]] std::span<const PlaneId> planes() const { return planes_; }

@@ -16,6 +16,7 @@
 #include "nef/base/error.h"
 #include "nef/base/fast_path.h"
 #include "nef/boolean/overlay_complexes.h"
+#include "nef/construct/face_links.h"
 #include "nef/construct/plain_ring.h"
 #include "nef/geometry/plane_finder.h"
 #include "nef/geometry/vectors.h"
@@ -51,7 +52,13 @@ class SolidBuilder {
 
   std::variant<Complex, Defect> run() {
     ComplexBuilder result(f_.planes, monitor_);
-    add_vertices(result);
+    std::optional<FaceLinks> told = add_vertices(result);
+    std::optional<KnownLinks> known;
+    if (told->are_many() && !result.has_idle_box()) {
+      result.drop_idle_planes();
+      known = told->links(result.so_far(), f_, corners_, first_);
+    }
+    told.reset();
     // Links need room.
     f_.points = PointTable();
     f_.names = {};
@@ -60,7 +67,7 @@ class SolidBuilder {
     f_.corners = {};
     corners_ = {};
     first_ = {};
-    return result.try_finish(marks_.outside);
+    return known ? result.try_finish(marks_.outside, *std::move(known)) : result.try_finish(marks_.outside);
   }
 
  private:
@@ -73,21 +80,27 @@ class SolidBuilder {
     LabelId mark = kOutside;  // none yet
   };
 
-  void add_vertices(ComplexBuilder& result) {
+  std::optional<FaceLinks> add_vertices(ComplexBuilder& result) {
     collect_corners();
     reserve(result);
     PlainRing ring(f_);
+    FaceLinks links(f_.corners.size());
+    const auto note = [&] {
+      const Complex& made = result.so_far();
+      links.note(made.vertices[VertexId{made.vertex_count() - 1}], ring.corners(), ring.planes());
+    };
     for (std::uint32_t v = 0; v < f_.points.size(); ++v) {
       const std::span<const FaceCorner> corners = std::span(corners_).subspan(first_[v], first_[v + 1] - first_[v]);
       if (corners.empty()) continue;
       if (kFastPaths && maps_ == SphereMaps::kRead && ring.read(v, corners)) {
         if (const VertexId like = ring.like(); like.valid()) {
-          result.append_like(f_.points, PointId{v}, like, ring.planes());
+          if (result.append_like(f_.points, PointId{v}, like, ring.planes())) note();
           continue;
         }
         if (ring.write(marks_, map_)) {
           if (result.add(f_.points, PointId{v}, map_.view())) {
             ring.learn(VertexId{result.so_far().vertex_count() - 1});
+            note();
           }
           continue;
         }
@@ -97,6 +110,7 @@ class SolidBuilder {
       check_sides(v);
       result.add_sorted(f_.points, PointId{v}, drawing_);
     }
+    return links;
   }
 
   // As for faces that are all facets, which is as much as there can be of each.
@@ -123,7 +137,7 @@ class SolidBuilder {
       for (std::uint32_t i = 0; i < size; ++i) {
         const std::uint32_t v = f_.corners[begin + i];
         corners_[at[v]++] = {face, f_.corners[begin + (i + 1 == size ? 0 : i + 1)],
-                             f_.corners[begin + (i == 0 ? size - 1 : i - 1)]};
+                             f_.corners[begin + (i == 0 ? size - 1 : i - 1)], begin + i};
       }
     }
   }

@@ -190,6 +190,12 @@ std::optional<PlaneId> PlaneFinder::through_small(PlaneTable& planes, const Smal
       std::array<Int128, 5>{factor * n[0], factor * n[1], factor * n[2], offset});  // no part in R
 }
 
+std::optional<PlaneId> PlaneFinder::through(PlaneTable& planes,
+                                            const std::array<std::array<std::int64_t, 3>, 3>& corners,
+                                            std::int64_t denominator) {
+  return through_small(planes, {corners, denominator});
+}
+
 PlaneId PlaneFinder::through(PlaneTable& planes, const PointTable& points, PointId o, PointId p, PointId q) {
   if (kFastPaths) {
     if (const std::optional<SmallCorners> corners = small_corners(points, {o, p, q})) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 
 #include "nef/geometry/plane_table.h"
@@ -22,6 +23,11 @@ class PlaneFinder {
   /// in machine integers where the numbers are short, which gives the same plane
   /// (tests/core/geometry/plane_finder_test).
   PlaneId through(PlaneTable& planes, const PointTable& points, PointId o, PointId p, PointId q);
+
+  /// The same of three points whose coordinates are these integers over one denominator; all are below 2^62. Nothing if
+  /// numbers on the way would be long.
+  static std::optional<PlaneId> through(PlaneTable& planes, const std::array<std::array<std::int64_t, 3>, 3>& corners,
+                                        std::int64_t denominator);
 
  private:
   struct SmallSides;

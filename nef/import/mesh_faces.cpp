@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "nef/base/error.h"
+#include "nef/base/fast_path.h"
 #include "nef/geometry/search/spatial_order.h"
 #include "nef/mesh/mesh_check.h"
 #include "nef/number/int128.h"
@@ -104,15 +105,20 @@ void MeshFaces::add_points(std::span<const std::uint32_t> places) {
   const PointTable& known = surface_.points.table();
   constexpr std::size_t kSmall = 4;  // limbs of a point with small integers
   f_.points.reserve(places.size(), known.size() > 0 ? known.limbs_per_point() : kSmall);
-  for (const std::uint32_t v : places) {
-    point_of_[v] = (known.size() > 0 ? f_.points.push_from(known, PointId{v}) : push_small_point(v)).index();
+  integers_.clear();
+  if (known.size() == 0) {
+    integers_.reserve(places.size());
+    for (const std::uint32_t v : places) integers_.push_back(surface_.points.integers(v));
+  }
+  for (std::uint32_t i = 0; i < places.size(); ++i) {
+    const std::uint32_t v = places[i];
+    point_of_[v] = (known.size() > 0 ? f_.points.push_from(known, PointId{v}) : push_small_point(integers_[i])).index();
   }
   f_.names.assign(places.begin(), places.end());
 }
 
-// A vertex with small integers for coordinates.
-PointId MeshFaces::push_small_point(std::uint32_t vertex) {
-  const std::array<std::int64_t, 3> x = surface_.points.integers(vertex);
+// A vertex with small integers over the common denominator.
+PointId MeshFaces::push_small_point(const std::array<std::int64_t, 3>& x) {
   std::int64_t common = surface_.points.denominator();
   for (const std::int64_t value : x) common = common_divisor(common, value);
   return f_.points.push_homogeneous(
@@ -155,6 +161,11 @@ void MeshFaces::push(std::span<const std::uint32_t> ring, PlaneId plane) {
 
 // No plane if the points are on one line.
 PlaneId MeshFaces::plane_of_triangle(std::span<const std::uint32_t> t) {
+  if (kFastPaths && !integers_.empty()) {
+    const std::optional<PlaneId> plane = PlaneFinder::through(
+        f_.planes, {integers_[t[0]], integers_[t[1]], integers_[t[2]]}, surface_.points.denominator());
+    if (plane) return *plane;
+  }
   return finder_.through(f_.planes, f_.points, PointId{t[0]}, PointId{t[1]}, PointId{t[2]});
 }
 

@@ -42,7 +42,7 @@ class MeshFaces {
   SolidFaces collect(std::span<const std::uint32_t> faces);  // all if empty
   [[nodiscard]] std::vector<std::uint32_t> places_of(std::span<const std::uint32_t> faces) const;
   void add_points(std::span<const std::uint32_t> places);
-  PointId push_small_point(std::uint32_t vertex);
+  PointId push_small_point(const std::array<std::int64_t, 3>& x);
   [[nodiscard]] std::vector<std::uint32_t> in_order_of_points(std::span<const std::uint32_t> faces) const;
   void add_face(std::uint32_t face);
   [[nodiscard]] std::array<std::uint32_t, 3> corners_of(std::uint32_t triangle) const;
@@ -59,6 +59,8 @@ class MeshFaces {
   std::vector<std::uint32_t> rank_;      // place -> where it is there
   std::vector<std::uint32_t> point_of_;  // place -> point of the faces at hand
   SolidFaces f_;                         // these; names are places
+  // Of the points of these, over the denominator of the mesh's; empty if they are not small.
+  std::vector<std::array<std::int64_t, 3>> integers_;
   bool reverse_ = false;
   std::vector<std::uint32_t> ring_;
   PlaneFinder finder_;

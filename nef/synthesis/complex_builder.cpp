@@ -350,6 +350,10 @@ std::variant<Complex, Defect> ComplexBuilder::try_finish(LabelId outer) {
   return complex_or_defect([&] { return finish(outer); });
 }
 
+std::variant<Complex, Defect> ComplexBuilder::try_finish(LabelId outer, KnownLinks&& known) {
+  return complex_or_defect([&] { return finish(outer, std::move(known)); });
+}
+
 std::variant<Complex, Defect> ComplexBuilder::try_finish_unreduced(LabelId outer) {
   return complex_or_defect([&] { return finish_unreduced(outer); });
 }

@@ -89,6 +89,9 @@ class ComplexBuilder {
   /// True if finish() would remove an infimaximal box.
   [[nodiscard]] bool has_idle_box() const;
 
+  /// Drops planes that nothing uses, as finish() does.
+  void drop_idle_planes();
+
   /// Removes an infimaximal box that nothing reaches, drops planes that nothing uses, and synthesizes. `outer` is the
   /// mark of all of space if there are no vertices. To be called once. For sphere maps that must fit together: a
   /// defect is a bug, and thrown as such. O(n log n), partly on the threads of its monitor.
@@ -99,6 +102,7 @@ class ComplexBuilder {
 
   /// What finish() returns, or what is wrong with the sphere maps.
   [[nodiscard]] std::variant<Complex, Defect> try_finish(LabelId outer);
+  [[nodiscard]] std::variant<Complex, Defect> try_finish(LabelId outer, KnownLinks&& known);
 
   /// The same with the box and the planes as they are.
   [[nodiscard]] std::variant<Complex, Defect> try_finish_unreduced(LabelId outer);
@@ -110,7 +114,6 @@ class ComplexBuilder {
   void copy_planes(const CopiedRun& run);
   void copy_sloops(const CopiedRun& run);
   void drop_idle_box(LabelId& outer);
-  void drop_idle_planes();
   Complex take();
   Complex finish_unreduced(LabelId outer);
 

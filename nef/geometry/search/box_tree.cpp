@@ -49,6 +49,35 @@ BoxTree::BoxTree(std::span<const Box> boxes, BoxSplit split) : order_(boxes.size
   }
 }
 
+// The indices of those below a node, which lie beside each other.
+std::span<const std::uint32_t> BoxTree::boxes_of(std::uint32_t node) const {
+  std::uint32_t first = node;
+  while (nodes_[first].count == 0) first = nodes_[first].first;
+  std::uint32_t last = node;
+  while (nodes_[last].count == 0) last = nodes_[last].first + 1;
+  const std::uint32_t begin = nodes_[first].first;
+  return std::span(order_).subspan(begin, nodes_[last].first + nodes_[last].count - begin);
+}
+
+// That of all boxes in a node, if they are in one.
+std::vector<std::uint32_t> BoxTree::groups_of_nodes(std::span<const std::uint32_t> groups) const {
+  std::vector<std::uint32_t> result(nodes_.size(), kNoGroup);
+  if (groups.empty()) return result;
+  for (std::size_t n = nodes_.size(); n-- > 0;) {
+    const Node& node = nodes_[n];
+    if (node.count == 0) {
+      if (result[node.first] == result[node.first + 1]) result[n] = result[node.first];
+      continue;
+    }
+    const std::span<const std::uint32_t> boxes = std::span(order_).subspan(node.first, node.count);
+    const std::uint32_t group = groups[boxes[0]];
+    if (std::all_of(boxes.begin(), boxes.end(), [&](std::uint32_t i) { return groups[i] == group; })) {
+      result[n] = group;
+    }
+  }
+  return result;
+}
+
 // A leaf if there are few. Otherwise two children after all nodes so far, the first one of them.
 std::optional<std::uint32_t> BoxTree::children(std::uint32_t node, std::uint32_t first, std::size_t count) {
   if (count <= kLeafSize) {

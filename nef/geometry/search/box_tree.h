@@ -121,10 +121,12 @@ class BoxTree {
   }
 
   /// Calls visit(i, j), i < j, once for every pair of boxes that overlap, in no particular order. Descends into
-  /// pairs of nodes, so boxes that lie apart are told apart in bulk.
+  /// pairs of nodes, so boxes that lie apart are told apart in bulk. Pairs in one group are left out: `groups`, empty
+  /// or the group of each box, kNoGroup if it is in none.
   template <typename Visit>
-  void for_each_pair(Visit&& visit) const {
+  void for_each_pair(Visit&& visit, std::span<const std::uint32_t> groups = {}) const {
     if (nodes_.empty()) return;
+    const std::vector<std::uint32_t> node_group = groups_of_nodes(groups);
     std::vector<RoughBox> nodes;
     nodes.reserve(nodes_.size());
     for (const Node& node : nodes_) nodes.emplace_back(node.box);
@@ -134,7 +136,11 @@ class BoxTree {
     std::size_t depth = 0;
     const auto push = [&](std::uint32_t m, std::uint32_t n) {
       stack[depth] = {m, n};
-      depth += nodes[m].overlaps(nodes[n]) ? 1 : 0;
+      const bool in_one = node_group[m] == node_group[n] && node_group[m] != kNoGroup;
+      depth += nodes[m].overlaps(nodes[n]) && !in_one ? 1 : 0;
+    };
+    const auto in_one_group = [groups](std::uint32_t i, std::uint32_t j) {
+      return !groups.empty() && groups[i] == groups[j] && groups[i] != kNoGroup;
     };
     std::array<std::array<std::uint32_t, 2>, kLeafSize * kLeafSize + 1> found;
     const auto visit_leaves = [&](const Node& a, const Node& b) {
@@ -146,6 +152,7 @@ class BoxTree {
         }
       }
       for (const auto& [i, j] : std::span(found).first(count)) {
+        if (in_one_group(order_[i], order_[j])) continue;
         if (boxes_[i].overlaps(boxes_[j])) visit(std::min(order_[i], order_[j]), std::max(order_[i], order_[j]));
       }
     };
@@ -209,6 +216,32 @@ class BoxTree {
     }
   }
 
+  /// The group of each box, kNoGroup if it is in none: is_group(indices of boxes) is asked about the boxes of a node,
+  /// of the root first, and about those of its children if it says no, as long as there are `least` of them.
+  template <typename IsGroup>
+  [[nodiscard]] std::vector<std::uint32_t> groups(std::size_t least, IsGroup&& is_group) const {
+    std::vector<std::uint32_t> result(order_.size(), kNoGroup);
+    if (nodes_.empty()) return result;
+    std::array<std::uint32_t, kDeepest> stack{};
+    std::size_t depth = 0;
+    stack[depth++] = 0;
+    while (depth > 0) {
+      const std::uint32_t n = stack[--depth];
+      const std::span<const std::uint32_t> boxes = boxes_of(n);
+      if (boxes.size() < least) continue;
+      if (is_group(boxes)) {
+        for (const std::uint32_t i : boxes) result[i] = n;
+      } else if (nodes_[n].count == 0) {
+        stack[depth++] = nodes_[n].first + 1;
+        stack[depth++] = nodes_[n].first;
+      }
+    }
+    return result;
+  }
+
+  /// Stands for no group.
+  static constexpr std::uint32_t kNoGroup = 0xffffffffU;
+
   [[nodiscard]] std::size_t size() const { return order_.size(); }
   /// The box around everything; empty for an empty tree.
   [[nodiscard]] Box bounds() const { return nodes_.empty() ? Box{} : nodes_[0].box; }
@@ -222,6 +255,8 @@ class BoxTree {
     std::uint32_t first = 0;  // of the two children, or of the leaf's boxes
     std::uint32_t count = 0;  // 0 for inner nodes
   };
+  [[nodiscard]] std::span<const std::uint32_t> boxes_of(std::uint32_t node) const;
+  [[nodiscard]] std::vector<std::uint32_t> groups_of_nodes(std::span<const std::uint32_t> groups) const;
   std::optional<std::uint32_t> children(std::uint32_t node, std::uint32_t first, std::size_t count);
   void split_cells(std::uint32_t node, std::uint32_t first, std::span<SpatialKey> keys,
                    std::span<const std::array<double, 3>> centres);

@@ -271,21 +271,44 @@ class WindingFiller {
     std::vector<Entry> entries_;
   };
 
-  // Nothing if there may be no vertex, which planes decide, or if there are too many items.
-  std::optional<MapKey> key_of(const Complex& c, VertexId v, const SphereMapView& map) const {
+  // What the key of a vertex needs to know of its pattern.
+  struct PatternKind {
+    bool is_known = false;
+    bool has_key = false;
+    std::uint32_t flat_edges = 0;  // those that may be flat: where all marks are one, they would not be there
+  };
+
+  static PatternKind kind_of(const SphereMapView& map) {
     constexpr std::size_t kBits = 32;
     const std::size_t nodes = map.svertices.size();
-    if (!map.sloops.empty() || nodes < 3 || nodes > kBits || map.sfaces.size() > kBits) return std::nullopt;
-    MapKey key{c.vertices.pattern(v)};
-    const SFaceId first = c.vertices.sfaces(v);
-    for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) {
-      key.sfaces |= static_cast<std::uint32_t>(c.volumes[c.sface_volume(first + f)].mark) << f;
-    }
+    PatternKind kind{true, nodes >= 3 && nodes <= kBits && map.sfaces.size() <= kBits};
+    if (!kind.has_key) return kind;
     for (std::uint32_t n = 0; n < nodes; ++n) {
       const std::uint32_t e = map.svertices[n].out;
       if (e == kNone) continue;
       const std::uint32_t other = map.next_around(e);
       if (other == e || map.next_around(other) != e) continue;
+      const LabelId mark = map.svertices[n].mark;
+      if (map.shalfedges[e].mark != mark || map.shalfedges[other].mark != mark) kind.flat_edges |= 1U << n;
+    }
+    return kind;
+  }
+
+  // Nothing if there may be no vertex, which planes decide, or if there are too many items.
+  static std::optional<MapKey> key_of(const Complex& c, VertexId v, PatternKind& kind) {
+    if (c.vertices[v].sloops != c.vertices[v.next()].sloops) return std::nullopt;
+    if (!kind.is_known) kind = kind_of(c.sphere_map(v));
+    if (!kind.has_key) return std::nullopt;
+    MapKey key{c.vertices.pattern(v)};
+    for (std::uint32_t bit = 0; const SFaceId f : c.sfaces(v)) {
+      key.sfaces |= static_cast<std::uint32_t>(c.volumes[c.sface_volume(f)].mark) << bit++;
+    }
+    if (kind.flat_edges == 0) return key;
+    const SphereMapView map = c.sphere_map(v);
+    for (std::uint32_t n = 0; n < map.svertices.size(); ++n) {
+      if ((kind.flat_edges >> n & 1U) == 0) continue;
+      const std::uint32_t e = map.svertices[n].out;
+      const std::uint32_t other = map.next_around(e);
       if (map.shalfedges[e].plane.row() == map.shalfedges[other].plane.row()) key.flat_edges |= 1U << n;
     }
     return key;
@@ -299,15 +322,15 @@ class WindingFiller {
     MarkedPatterns known(c.patterns);
     std::vector<PatternId> pattern_of(c.vertex_count());
     SphereMapBuffer map;
+    std::vector<PatternKind> kinds(c.patterns.size());
     for (const VertexId v : c.vertex_ids()) {
-      const SphereMapView view = c.sphere_map(v);
-      const std::optional<MapKey> key = key_of(c, v, view);
+      const std::optional<MapKey> key = key_of(c, v, kinds[c.vertices.pattern(v).index()]);
       PatternId& pattern = pattern_of[v.index()];
       if (key) {
         pattern = known.find(*key);
         if (pattern.valid()) continue;
       }
-      map.assign(view);
+      map.assign(c.sphere_map(v));
       for (std::uint32_t f = 0; f < map.sfaces.size(); ++f) {
         map.sfaces[f].mark = c.volumes[c.sface_volume(c.vertices.sfaces(v) + f)].mark;
       }

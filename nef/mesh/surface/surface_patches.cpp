@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <array>
 
+#include "nef/base/fast_path.h"
 #include "nef/geometry/search/direction_tree.h"
 #include "nef/mesh/surface/coplanar_groups.h"
+#include "nef/mesh/surface/terrains.h"
 
 namespace nef {
 namespace {
@@ -244,6 +246,25 @@ void SurfacePatches::visit_pair(const Layout& layout, std::uint32_t i, std::uint
   }
 }
 
+// The terrains among the patches below nodes of their tree, as a group of each patch.
+std::vector<std::uint32_t> SurfacePatches::terrains(const Layout& layout, const BoxTree& tree) const {
+  constexpr std::size_t kFew = 16;  // patches whose boxes are soon compared
+  if (!kFastPaths || !surface_.points.moderate()) return {};
+  Terrains terrains(surface_.points, stars_, surface_.triangles, monitor_);
+  const bool are_triangles = layout.order.empty() && layout.patches.size() == surface_.triangles.size();
+  std::vector<std::uint32_t> triangles;
+  return tree.groups(kFew, [&](std::span<const std::uint32_t> patches) {
+    if (are_triangles) return terrains.is_terrain(patches);
+    triangles.clear();
+    for (const std::uint32_t p : patches) {
+      for (std::uint32_t t = layout.patches[p].first; t < layout.patches[p].last; ++t) {
+        triangles.push_back(layout.triangle(t));
+      }
+    }
+    return terrains.is_terrain(triangles);
+  });
+}
+
 // The number of patches around each place.
 std::vector<std::uint32_t> SurfacePatches::degrees(const Layout& layout) const {
   std::vector<std::uint32_t> degree(surface_.points.size(), 0);
@@ -284,7 +305,8 @@ class WideStars {
   template <typename Visit>
   void for_each_pair(const Visit& visit) const {
     if (stars_.empty()) {
-      patches_.tree(layout_).for_each_pair(visit);
+      const BoxTree tree = patches_.tree(layout_);
+      tree.for_each_pair(visit, patches_.terrains(layout_, tree));
       return;
     }
     std::vector<std::uint32_t> plain;

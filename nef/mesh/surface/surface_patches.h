@@ -77,6 +77,7 @@ class SurfacePatches {
   [[nodiscard]] Box box(std::span<const std::uint32_t> places) const;
   [[nodiscard]] std::vector<Box> triangle_boxes(const Layout& layout, const Patch& patch) const;
   [[nodiscard]] BoxTree tree(const Layout& layout) const;
+  [[nodiscard]] std::vector<std::uint32_t> terrains(const Layout& layout, const BoxTree& tree) const;
   [[nodiscard]] std::vector<std::uint32_t> degrees(const Layout& layout) const;
   void within(const Layout& layout, const Patch& patch, const Visit& visit) const;
   void between(const Layout& layout, std::uint32_t p, std::uint32_t q, const Visit& visit) const;

@@ -6,48 +6,69 @@
 namespace nef {
 
 VertexStars::VertexStars(const MeshPoints& points, std::span<const Triangle> triangles)
-    : points_(points), begin_(points.size() + 1, 0), wedges_(3 * triangles.size()), flat_(points.size(), 0) {
+    : points_(points),
+      begin_(points.size() + 1, 0),
+      wedges_(3 * triangles.size()),
+      across_(3 * triangles.size(), kNone),
+      flat_(points.size(), 0) {
   for (const Triangle& t : triangles) {
     for (const std::uint32_t v : t) ++begin_[v + 1];
   }
   for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
-  std::vector<Turns> turns;
-  turns.reserve(triangles.size());
+  views_.reserve(triangles.size());
   std::vector<std::uint32_t> at(begin_.begin(), begin_.end() - 1);
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     const Triangle& t = triangles[i];
-    for (std::size_t k = 0; k < 3; ++k) wedges_[at[t[k]]++] = {i, t[(k + 1) % 3], t[(k + 2) % 3]};
-    turns.push_back(points.filtered_turns(t[0], t[1], t[2]));
+    for (std::uint32_t k = 0; k < 3; ++k) wedges_[at[t[k]]++] = {i, k, t[(k + 1) % 3], t[(k + 2) % 3]};
+    unsigned views = 0;
+    for (unsigned axis = 0; const std::int8_t turn : points.filtered_turns(t[0], t[1], t[2])) {
+      views |= (static_cast<unsigned>(turn > 0) | static_cast<unsigned>(turn < 0) << 1U) << axis;
+      axis += 2;
+    }
+    views_.push_back(static_cast<std::uint8_t>(views));
   }
+  std::vector<std::uint32_t> open;
   for (std::uint32_t v = 0; v < flat_.size(); ++v) {
-    if (!is_closed(star(v))) {
-      all_closed_ = false;
-    } else if (is_flat(v, star(v), turns)) {
+    if (!close(star(v))) {
+      open.push_back(v);
+    } else if (is_flat(v, star(v))) {
       flat_[v] = 1;
+    }
+  }
+  all_closed_ = open.empty();
+  // The sides that leave such a vertex and those that arrive there.
+  for (const std::uint32_t v : open) {
+    for (const Wedge& wedge : star(v)) {
+      across_[3 * wedge.triangle + wedge.corner] = kNone;
+      across_[3 * wedge.triangle + (wedge.corner == 0 ? 2 : wedge.corner - 1)] = kNone;
     }
   }
 }
 
-bool VertexStars::is_closed(std::span<const Wedge> star) {
+// True if the vertex is closed; then says what is across the sides that leave it.
+bool VertexStars::close(std::span<const Wedge> star) {
   constexpr std::size_t kFew = 16;  // edges that are compared with each other
-  if (star.size() > kFew) return is_closed_wide(star);
-  for (std::size_t i = 0; i < star.size(); ++i) {
+  if (star.size() > kFew) return close_wide(star);
+  for (const Wedge& wedge : star) {
     unsigned departures = 0;  // counted without branches, which nobody could foresee
     unsigned arrivals = 0;
     unsigned turned_over = 0;  // triangles of the same corners
+    std::uint32_t across = 0;
     for (const Wedge& other : star) {
-      const auto arrives = static_cast<unsigned>(other.to == star[i].from);
-      departures += static_cast<unsigned>(other.from == star[i].from);
+      const auto arrives = static_cast<unsigned>(other.to == wedge.from);
+      departures += static_cast<unsigned>(other.from == wedge.from);
       arrivals += arrives;
-      turned_over += arrives & static_cast<unsigned>(other.from == star[i].to);
+      turned_over += arrives & static_cast<unsigned>(other.from == wedge.to);
+      across |= other.triangle & (0U - arrives);
     }
     if (departures != 1 || arrivals != 1 || turned_over != 0) return false;
+    across_[3 * wedge.triangle + wedge.corner] = across;
   }
   return true;
 }
 
 // The same by sorting.
-bool VertexStars::is_closed_wide(std::span<const Wedge> star) {
+bool VertexStars::close_wide(std::span<const Wedge> star) {
   std::vector<Wedge> by_from(star.begin(), star.end());
   std::vector<Wedge> by_to = by_from;
   std::sort(by_from.begin(), by_from.end(), [](const Wedge& a, const Wedge& b) { return a.from < b.from; });
@@ -55,18 +76,17 @@ bool VertexStars::is_closed_wide(std::span<const Wedge> star) {
   for (std::size_t i = 0; i < star.size(); ++i) {
     if (by_from[i].from != by_to[i].to || by_from[i].to == by_to[i].from) return false;
     if (i > 0 && by_from[i].from == by_from[i - 1].from) return false;
+    across_[3 * by_from[i].triangle + by_from[i].corner] = by_to[i].triangle;
   }
   return true;
 }
 
-bool VertexStars::is_flat(std::uint32_t vertex, std::span<const Wedge> star, std::span<const Turns> turns) const {
+bool VertexStars::is_flat(std::uint32_t vertex, std::span<const Wedge> star) const {
   if (star.empty()) return false;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::int8_t turn = turns[star[0].triangle][axis];
-    if (turn == 0) continue;
-    const bool alike = std::all_of(star.begin() + 1, star.end(),
-                                   [&](const Wedge& wedge) { return turns[wedge.triangle][axis] == turn; });
-    if (alike && times_around(vertex, star, axis, turn > 0) == 1) return true;
+  unsigned views = kAllViews;
+  for (const Wedge& wedge : star) views &= views_[wedge.triangle];
+  for (unsigned view = 0; view < 6; ++view) {
+    if ((views >> view & 1U) != 0 && times_around(vertex, star, view / 2, view % 2 == 0) == 1) return true;
   }
   return false;
 }

@@ -27,8 +27,9 @@ class VertexStars {
   /// A triangle at a vertex.
   struct Wedge {
     std::uint32_t triangle = 0;
-    std::uint32_t from = 0;  ///< the end of the edge that the triangle leaves the vertex by
-    std::uint32_t to = 0;    ///< and of the one that it comes back by
+    std::uint32_t corner = 0;  ///< of the triangle
+    std::uint32_t from = 0;    ///< the end of the edge that the triangle leaves the vertex by
+    std::uint32_t to = 0;      ///< and of the one that it comes back by
   };
 
   /// Triangles of points, none degenerate. Both must outlive this object. O(n log n), for a bounded number of triangles
@@ -39,6 +40,18 @@ class VertexStars {
   [[nodiscard]] std::span<const Wedge> star(std::uint32_t vertex) const {
     return std::span(wedges_).subspan(begin_[vertex], begin_[vertex + 1] - begin_[vertex]);
   }
+
+  /// The triangle that runs back through the side of a triangle from corner k to the next one; kNone if one of the two
+  /// is not closed.
+  [[nodiscard]] std::uint32_t across(std::uint32_t triangle, std::uint32_t k) const {
+    return across_[3 * triangle + k];
+  }
+  static constexpr std::uint32_t kNone = 0xffffffffU;  ///< stands for no triangle
+
+  /// A bit for each axis and side from which a triangle surely is seen: 2^(2 axis) if it turns counterclockwise in the
+  /// projection along the axis, 2^(2 axis + 1) if it turns clockwise.
+  [[nodiscard]] unsigned views(std::uint32_t triangle) const { return views_[triangle]; }
+  static constexpr unsigned kAllViews = 63;  ///< all of these bits
 
   /// True if all vertices are closed.
   [[nodiscard]] bool all_closed() const { return all_closed_; }
@@ -55,19 +68,18 @@ class VertexStars {
   }
 
  private:
-  // How a triangle turns along each axis, as far as doubles tell.
-  using Turns = std::array<std::int8_t, 3>;
-
-  static bool is_closed(std::span<const Wedge> star);
-  static bool is_closed_wide(std::span<const Wedge> star);
-  [[nodiscard]] bool is_flat(std::uint32_t vertex, std::span<const Wedge> star, std::span<const Turns> turns) const;
+  bool close(std::span<const Wedge> star);
+  bool close_wide(std::span<const Wedge> star);
+  [[nodiscard]] bool is_flat(std::uint32_t vertex, std::span<const Wedge> star) const;
   [[nodiscard]] std::size_t times_around(std::uint32_t vertex, std::span<const Wedge> star, std::size_t axis,
                                          bool counterclockwise) const;
 
   const MeshPoints& points_;
   std::vector<std::uint32_t> begin_;  // of each point, in wedges_; and the end
   std::vector<Wedge> wedges_;
-  std::vector<std::uint8_t> flat_;  // of each point
+  std::vector<std::uint32_t> across_;  // of each side
+  std::vector<std::uint8_t> views_;    // of each triangle
+  std::vector<std::uint8_t> flat_;     // of each point
   bool all_closed_ = true;
 };
 

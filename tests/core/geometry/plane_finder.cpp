@@ -74,6 +74,23 @@ TEST_CASE("planes of triangles are those of their exact normals") {
     const PlaneId found = finder.through(planes, points, ids[0], ids[1], ids[2]);
     RC_ASSERT(found == expected(planes, triangle));
     RC_ASSERT(finder.through(planes, points, ids[0], ids[2], ids[1]) == (found.valid() ? found.opposite() : found));
+    // Over any common denominator, not only the least one.
+    Integer common = *rc::gen::element(1, 2, 12);
+    for (const Rational3& point : triangle) {
+      for (const Rational& x : point) mpz_lcm(common.get_mpz_t(), common.get_mpz_t(), x.get_den_mpz_t());
+    }
+    std::array<std::array<std::int64_t, 3>, 3> corners{};
+    bool are_small = mpz_sizeinbase(common.get_mpz_t(), 2) <= 62;
+    for (std::size_t k = 0; k < 3; ++k) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Rational scaled = triangle[k][i] * common;
+        are_small = are_small && mpz_sizeinbase(scaled.get_num_mpz_t(), 2) <= 62;
+        if (are_small) corners[k][i] = scaled.get_num().get_si();
+      }
+    }
+    if (!are_small) return;
+    const std::optional<PlaneId> short_one = PlaneFinder::through(planes, corners, common.get_si());
+    RC_ASSERT(!short_one || *short_one == found);
   }));
 }
 

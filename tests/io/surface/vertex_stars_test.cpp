@@ -11,6 +11,7 @@
 #include "nef/construct/construct.h"
 #include "nef/mesh/surface/vertex_stars.h"
 #include "nef/polyhedron.h"
+#include "tests/support/common_corners.h"
 
 namespace nef::test {
 namespace {
@@ -19,20 +20,6 @@ using Triangle = VertexStars::Triangle;
 
 bool degenerate(const MeshPoints& points, const Triangle& t) {
   return t[0] == t[1] || t[1] == t[2] || t[2] == t[0] || points.collinear(t[0], t[1], t[2], {});
-}
-
-Polyhedron hull_of(const std::vector<Rational3>& places, std::span<const std::uint32_t> corners) {
-  std::vector<Rational3> chosen;
-  for (const std::uint32_t v : corners) chosen.push_back(places[v]);
-  return convex_hull(chosen);
-}
-
-bool meet_in_common_corners_only(const std::vector<Rational3>& places, const Triangle& a, const Triangle& b) {
-  std::vector<std::uint32_t> common;
-  for (const std::uint32_t v : a) {
-    if (std::find(b.begin(), b.end(), v) != b.end()) common.push_back(v);
-  }
-  return equal(intersect(hull_of(places, a), hull_of(places, b)), hull_of(places, common));
 }
 
 Rational3 random_place(std::mt19937& random, int size, bool near_plane) {

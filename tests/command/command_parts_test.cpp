@@ -9,9 +9,9 @@
 #include "nef/io/mesh/mesh_reader.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/polyhedron.h"
-#include "support/report_shape.h"
 #include "tests/support/obj_lines.h"
 #include "tests/support/paths.h"
+#include "tests/support/report_shape.h"
 
 namespace nef::test {
 namespace {

@@ -2,7 +2,7 @@
 //
 // The program as its users meet it: real files, exit codes, JSON.
 #include "command/process.h"
-#include "support/report_shape.h"
+#include "tests/support/report_shape.h"
 
 namespace nef::test {
 namespace {

@@ -19,7 +19,7 @@
 #include "nef/io/mesh/mesh_writer.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/polyhedron.h"
-#include "support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nef::test {
 namespace {

@@ -13,8 +13,8 @@
 #include "nef/io/polyhedron_file.h"
 #include "nef/mesh/mesh_check.h"
 #include "nef/polyhedron.h"
-#include "support/ball.h"
-#include "support/temporary_folder.h"
+#include "tests/support/shapes/ball.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nef::test {
 namespace {

@@ -12,9 +12,9 @@
 #include "nef/io/polyhedron_file.h"
 #include "nef/mesh/mesh_check.h"
 #include "nef/polyhedron.h"
-#include "support/strict_mesh.h"
-#include "support/temporary_folder.h"
-#include "support/two_manifold.h"
+#include "tests/support/shapes/two_manifold.h"
+#include "tests/support/strict_mesh.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nef::test {
 namespace {

@@ -9,7 +9,7 @@
 #include "nef/io/polyhedron_file.h"
 #include "nef/io/zip_archive.h"
 #include "nef/polyhedron.h"
-#include "support/temporary_folder.h"
+#include "tests/support/temporary_folder.h"
 
 namespace nef::test {
 namespace {

@@ -6,9 +6,9 @@
 // changed are made anew.
 import * as THREE from "three";
 
-export const MOST_TRIANGLES = 16000; // of a scene that is always drawn whole; about as many are left of a larger one
+export const MOST_TRIANGLES = 8000; // of a scene that is always drawn whole; about as many are left of a larger one
 const FEW_TRIANGLES = 2000; // of a layer that stays whole
-const CELLS_OF_RADIUS = 40; // of the page, at first
+const CELLS_OF_RADIUS = 28; // of the page, at first
 const MOST_CELLS = 2 ** 17; // of a side, so that a cell has one number
 
 export const triangleCount = (view) => view.layer.facets.corners.length / 3;

@@ -4,7 +4,7 @@
 // asked for meanwhile would queue: the page would show what was long ago. So a frame begins only when the one before is on
 // the screen, and where frames take long, they are drawn in fewer triangles and fewer pixels until nothing moves any more.
 
-const FRAME_TIME = 40; // milliseconds that a frame may take while something moves
+const FRAME_TIME = 25; // milliseconds that a frame may take while something moves
 const FRAME_SHARES = [1, 0.7, 0.5, 0.35, 0.25]; // of the pixels of a side
 const FRAME_LOOK = 2; // milliseconds
 // Once nothing moves: after so many milliseconds, what surely takes no longer than so many. Who moves on waits for it.

@@ -264,7 +264,7 @@ export class LayerView {
     for (const photo of layer.photos) this.extras.add(photoMesh(photo, onLoad));
     this.whole.add(this.facets);
     this.group.add(this.whole, this.extras);
-    // It moves as a whole, and seldom.
+    // It moves as a whole, and seldom: by #moved.
     this.group.traverse((object) => (object.matrixAutoUpdate = false));
     this.group.visible = layer.visible;
     this.setOpacity(layer.opacity);
@@ -302,7 +302,11 @@ export class LayerView {
 
   // Puts it where its coordinates begin.
   place() {
-    if (this.layer.offset) this.group.position.set(...this.layer.offset);
+    const { x, y, z } = this.group.position;
+    const [toX, toY, toZ] = this.layer.offset ?? [x, y, z];
+    if (this.placed && toX === x && toY === y && toZ === z) return;
+    this.placed = true;
+    this.group.position.set(toX, toY, toZ);
     this.#moved();
   }
 

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// One run: read the mechanism, find its range, write the report, print a line for each part. The report has the ends as
-// exact roots, or as intervals of screws, and as doubles; the text has doubles and the first pair of items that touch.
+// One run: read the mechanism, find its range, write the report, pages and glTF files, print a line for each part. The
+// report has the ends as exact roots, or as intervals of screws, and as doubles; the text has doubles and the first
+// pair of items that touch.
 #include "apps/planner/command/runs/runs.h"
 
 #include <algorithm>
 #include <iostream>
 
 #include "apps/planner/command/findings.h"
+#include "apps/planner/command/runs/parts/range_view.h"
 #include "apps/planner/mechanism/range_of_motion.h"
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
@@ -112,7 +114,9 @@ int run_range(const Arguments& a) {
            mechanism.name,
            [&] { return range_json(range, mechanism); },
            {{"setup", setup_s, {}}, {"op", limit.passed() - setup_s, {}}},
-           [&] { print_range(range, mechanism); }});
+           [&] { print_range(range, mechanism); },
+           nullptr,
+           [&] { return range_layers(range, mechanism); }});
   return is_undecided(range) ? 5 : 0;
 }
 

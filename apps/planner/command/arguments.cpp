@@ -133,7 +133,7 @@ std::string dotted(const std::vector<const char*>& extensions) {
 
 // Files of answers other than cones of directions, which are sets.
 void check_outputs(const Arguments& a) {
-  if (!a.range.empty()) require_extensions(a, "with --range", {"json"});
+  if (!a.range.empty()) require_extensions(a, "with --range", {"json", "html", "glb"});
   if (!a.verdict.empty()) require_extensions(a, "with --verdict", {"json"});
   if (!a.linkage.empty()) require_extensions(a, "with --linkage", {"json", "html", "glb"});
   if (!a.queries.empty()) require_extensions(a, "with --queries", {"json"});

@@ -14,7 +14,7 @@ namespace {
 
 view::Motion shown(const std::string& text) {
   const Mechanism m = parse_mechanism(text, "", "test");
-  const std::vector<view::Layer> layers = range_layers(range_of_motion(m), m);
+  const std::vector<view::Layer> layers = range_layers(nef::planner::range_of_motion(m), m);
   REQUIRE(layers.size() == 1 + m.fixed.size());
   CHECK(layers[0].name == "moving");
   CHECK(layers[1].motion.empty());
@@ -59,7 +59,7 @@ TEST_CASE("a screw goes evenly with its angle", "[mechanism]") {
 
 TEST_CASE("a slider goes straight up to what it touches", "[mechanism]") {
   const view::Motion motion = shown(R"J({"moving": "box(0,0,0, 1,1,1)", "fixed": ["box(4,0,0, 5,1,1)"],
-      "joint": {"type": "slider", "direction": [2, 0, 0], "range": [-1, 5/4]}})J");
+      "joint": {"type": "slider", "direction": [2, 0, 0], "range": [-1, 1.25]}})J");
   REQUIRE(motion.times.size() == 2);
   CHECK(is_near(at(motion, 0, {1, 1, 1}), {-1, 1, 1}));
   CHECK(is_near(at(motion, 1, {1, 1, 1}), {3.5, 1, 1}));

@@ -13,7 +13,7 @@ namespace {
 
 using Values = std::array<Rational, 2>;
 
-constexpr unsigned kBits = 60;  // of what is shown
+constexpr unsigned kShownBits = 60;  // of what is shown
 
 // The values between which nothing collides for longest; nothing if that is nowhere longer than a point.
 std::optional<Values> longest_stretch(const RangeOfMotion& range, const Joint& joint) {
@@ -25,8 +25,8 @@ std::optional<Values> longest_stretch(const RangeOfMotion& range, const Joint& j
       begin.reset();
       continue;
     }
-    if (!begin) begin = enclosure(part.from.value, kBits)[1];
-    const Rational end = enclosure(part.to.value, kBits)[0];
+    if (!begin) begin = enclosure(part.from.value, kShownBits)[1];
+    const Rational end = enclosure(part.to.value, kShownBits)[0];
     const double length = joint.measure_of(end) - joint.measure_of(*begin);
     if (length <= longest) continue;
     longest = length;

@@ -4,8 +4,8 @@
 // Chromium, which draws by software. Rows as in latency.py, and a sphere of 300,000 triangles that is turned and cut.
 // Prints milliseconds: the median and the largest until it is on the screen, and medians of the parts of that: the request
 // until its last byte, the page's own work, and the frame, with the share of the pixels of a side in which it was drawn. Then
-// milliseconds a step of a drag, in which the next step is computed while the picture of the last one is drawn, and how many of the pictures
-// there were.
+// milliseconds a step of a drag, in which the next step is computed while the picture of the last one is drawn, with the numbers of answers and
+// of pictures.
 import { spawn } from "node:child_process";
 import { cpSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -71,32 +71,46 @@ for (const [name, [prepare, change]] of Object.entries(rows)) {
   console.log(`| ${name} | ${median(0).toFixed(0)} | ${largest} | ${[1, 2, 3].map((k) => median(k).toFixed(0)).join(" | ")} | ${median(4)} |`);
 }
 
-console.log("\n| steps in a row | ms a step | steps | pictures |\n| --- | --- | --- | --- |");
+// A drag: an event every 8 ms, each of which asks for what is next, as handles do. What is asked for while something is computed replaces
+// what waits.
+console.log("\n| while it is dragged | ms a step | steps | pictures |\n| --- | --- | --- | --- |");
 for (const name of ["a cube over 131,000 triangles", "a cube over 300,000 triangles"]) {
   const [prepare, change] = rows[name];
-  const [milliseconds, pictures] = await browser.evaluate(`(async () => {
+  const [milliseconds, answers, pictures] = await browser.evaluate(`(async () => {
     const { pacer } = nefViewer;
+    const { computing } = nefStudio;
     await (${prepare});
     await pacer.shown();
     const { draw } = pacer;
+    const { onScene } = computing;
     let pictures = 0;
+    let answers = 0;
     pacer.draw = (...what) => {
       ++pictures;
       draw(...what);
     };
-    let before = Promise.resolve(); // the picture of the last step
-    let begin = 0;
-    for (let i = -${steps}; i < ${steps}; ++i) {
-      if (i === 0) [begin, pictures] = [performance.now(), 0];
-      await (${change});
-      await before;
-      before = pacer.shown();
-    }
-    await before;
-    pacer.draw = draw;
-    return [(performance.now() - begin) / ${steps}, pictures];
+    computing.onScene = (scene) => {
+      ++answers;
+      return onScene(scene);
+    };
+    const dragFor = async (milliseconds) => {
+      const begin = performance.now();
+      for (let now = begin; now < begin + milliseconds; now = performance.now()) {
+        const i = Math.floor(now / 40) % 20;
+        computing.next(() => (${change}));
+        await new Promise((done) => setTimeout(done, 8));
+      }
+      return performance.now() - begin;
+    };
+    await dragFor(2000); // until the pace is found
+    pictures = answers = 0;
+    const took = await dragFor(3000);
+    const found = [took / answers, answers, pictures];
+    Object.assign(pacer, { draw });
+    computing.onScene = onScene;
+    return found;
   })()`);
-  console.log(`| ${name} | ${milliseconds.toFixed(0)} | ${steps} | ${pictures} |`);
+  console.log(`| ${name} | ${milliseconds.toFixed(0)} | ${answers} | ${pictures} |`);
 }
 await browser.close();
 server.kill("SIGTERM");

@@ -9,13 +9,14 @@ const SHOW_AFTER = 250; // milliseconds before a computation is worth a word
 const LOOK_EVERY = 250;
 
 export class Computing {
-  // onScene(scene) for every result; onGone(error) if the server does not answer.
+  // onScene(scene) for every result, which returns a promise that ends when it is on the screen; onGone(error) if the server does not answer.
   constructor({ onScene, onGone }) {
     Object.assign(this, { onScene, onGone });
     this.number = 0;
     this.delayed = null;
     this.running = 0;
     this.waiting = null; // what runs next
+    this.picture = null; // the promise of the last result
     byId("cancel").addEventListener("click", () => this.cancel());
   }
 
@@ -46,7 +47,9 @@ export class Computing {
     try {
       const { report, scene } = await computePanel(panel, request);
       if (me !== this.number) return null;
-      this.onScene(scene);
+      const before = this.picture;
+      this.picture = this.onScene(scene);
+      await before; // who drags gets no more results than pictures
       return { report, scene, seconds: (performance.now() - begin) / 1000 };
     } catch (error) {
       if (error instanceof ServerError) {

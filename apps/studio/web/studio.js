@@ -158,6 +158,7 @@ class StudioPage {
       this.viewer.reset();
       this.framed = ball;
     }
+    return this.viewer.pacer.shown();
   }
 
   async refreshFiles() {

@@ -232,7 +232,7 @@ void declare(CLI::App& app, Arguments& a) {
                  "Write the answer: .json report, .path (OMPL matrix), .glb (animated glTF), .csv (time stamps), else "
                  "text; may be repeated")
       ->type_name("FILE");
-  app.add_option("--page", a.page, "Write a page (.html) in which the robot, or what moves, moves")->type_name("FILE");
+  app.add_option("--page", a.page, "Write a page (.html) that plays the motion")->type_name("FILE");
   app.add_flag("--tight", a.tight, "List all tight passages; with --path, also name those that the path uses");
   app.add_option("--path", a.given_path,
                  "Check this path (a report or lines of numbers) instead of searching for one; lines x y z qx qy qz "

@@ -2,7 +2,7 @@
 //
 // The controls beside the scene.
 import { escaped } from "./item_text.js";
-import { INK_HEX, ORANGE_HEX } from "./draw/layer_view.js";
+import { byLayer, INK_HEX, ORANGE_HEX } from "./draw/layer_view.js";
 
 export const byId = (id) => document.getElementById(id);
 
@@ -36,14 +36,7 @@ function layerRow(views, onChange) {
 }
 
 export function makeLayerRows(views, onChange) {
-  // The pieces of a layer have one row.
-  const rows = new Map();
-  for (const view of views) {
-    const key = view.layer.piece ? view.layer.name : view;
-    if (rows.has(key)) rows.get(key).push(view);
-    else rows.set(key, [view]);
-  }
-  byId("layers").replaceChildren(...[...rows.values()].map((some) => layerRow(some, onChange)));
+  byId("layers").replaceChildren(...byLayer(views).map((some) => layerRow(some, onChange)));
 }
 
 const MOST_VOLUMES = 12; // that the legend names one by one

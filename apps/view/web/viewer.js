@@ -155,7 +155,7 @@ export class Viewer {
   }
 
   #coarseView() {
-    if (this.coarseIsOld) this.coarse.show(this.views, this.radius);
+    if (this.coarseIsOld) this.coarse.show(this.views, this.radius, this.page.center);
     this.coarseIsOld = false;
     return this.coarse;
   }

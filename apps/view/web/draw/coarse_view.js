@@ -5,18 +5,20 @@
 // a cell is that of the first layer that has one there, so pieces of a layer still fit together, and only those that have
 // changed are made anew.
 import * as THREE from "three";
+import { byLayer } from "./layer_view.js";
 
 export const MOST_TRIANGLES = 8000; // of a scene that is always drawn whole; about as many are left of a larger one
 const FEW_TRIANGLES = 2000; // of a layer that stays whole
 const CELLS_OF_RADIUS = 28; // of the page, at first
-const MOST_CELLS = 2 ** 17; // of a side, so that a cell has one number
+const MOST_CELLS = 2 ** 17; // along an axis, so that a cell has one number
+const MOST_SHIFT = 2 ** 14; // cells between the origin of a grid and the centre of the page
 
 export const triangleCount = (view) => view.layer.facets.corners.length / 3;
 
-// The corners of the cells of one grid, in the coordinates of space.
+// The corners of the cells of one grid, about an origin in space that is near all of them.
 class CellCorners {
-  constructor(side) {
-    this.side = side;
+  constructor(side, origin) {
+    Object.assign(this, { side, origin });
     this.numbers = new Map();
     this.corners = [];
   }
@@ -40,7 +42,8 @@ class CellCorners {
 function coarseTriangles(view, cells) {
   const { xyz } = view.layer.vertices;
   const { corners } = view.layer.facets;
-  const center = view.layer.piece?.center ?? [0, 0, 0];
+  // Layers without pieces have coordinates about the page's centre.
+  const center = view.layer.piece ? view.layer.piece.center.map((x, i) => x - cells.origin[i]) : [0, 0, 0];
   const cellOf = new Uint32Array(xyz.length / 3);
   for (let v = 0; v < cellOf.length; ++v) {
     cellOf[v] = cells.number(xyz[3 * v] + center[0], xyz[3 * v + 1] + center[1], xyz[3 * v + 2] + center[2]);
@@ -90,22 +93,19 @@ export class CoarseView {
     this.cells = null;
   }
 
-  // Makes few triangles of the large layers among these views, which are those of a scene in a page of this radius. O(those
-  // that are new).
-  show(views, radius) {
+  // Makes few triangles of the large layers among these views, which are those of a scene in a page of this radius about
+  // this centre. O(those that are new).
+  show(views, radius, center) {
     this.dispose();
-    const layers = new Map(); // pieces of a layer are one
-    for (const view of views) {
-      const key = view.layer.piece ? view.layer.name : view;
-      if (!layers.has(key)) layers.set(key, []);
-      layers.get(key).push(view);
-    }
-    const large = [...layers.values()].filter((some) => some.reduce((sum, view) => sum + triangleCount(view), 0) > FEW_TRIANGLES);
+    const large = byLayer(views).filter((some) => some.reduce((sum, view) => sum + triangleCount(view), 0) > FEW_TRIANGLES);
     const finest = radius / CELLS_OF_RADIUS;
-    if (!this.cells || this.cells.side < finest / 2 || this.cells.side > finest * 8) this.#begin(finest);
+    const far = (cells) => Math.hypot(...center.map((x, i) => x - cells.origin[i])) > MOST_SHIFT * cells.side;
+    if (!this.cells || this.cells.side < finest / 2 || this.cells.side > finest * 8 || far(this.cells)) {
+      this.cells = new CellCorners(finest, center);
+    }
     let count = this.#make(large.flat());
     while (count > 1.5 * MOST_TRIANGLES && this.cells.side < finest * 8) {
-      this.#begin(this.cells.side * Math.sqrt(count / MOST_TRIANGLES));
+      this.cells = new CellCorners(this.cells.side * Math.sqrt(count / MOST_TRIANGLES), center);
       count = this.#make(large.flat());
     }
     this.groups = large.map((some) => {
@@ -115,10 +115,6 @@ export class CoarseView {
       mesh.visible = false;
       return { views: some, mesh };
     });
-  }
-
-  #begin(side) {
-    this.cells = new CellCorners(side);
   }
 
   #make(views) {

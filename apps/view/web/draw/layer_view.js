@@ -232,6 +232,17 @@ function surfaceImage(url, onLoad) {
   return image;
 }
 
+// Views by layer: the pieces of one are together.
+export function byLayer(views) {
+  const layers = new Map();
+  for (const view of views) {
+    const key = view.layer.piece ? view.layer.name : view;
+    if (layers.has(key)) layers.get(key).push(view);
+    else layers.set(key, [view]);
+  }
+  return [...layers.values()];
+}
+
 export class LayerView {
   // radius: of the page, in which the layer is seen; alone: it is the only one.
   constructor(layer, shared, radius, alone, onLoad) {

@@ -6,7 +6,7 @@ set -euo pipefail
 nef_packages=(
   g++ cmake ninja-build ccache pkg-config python3 help2man
   libgmp-dev libeigen3-dev libopenmesh-dev libopencv-dev libompl-dev libboost-dev
-  libassimp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libmatio-dev libtbb-dev libpng-dev zlib1g-dev libxxhash-dev
+  libassimp-dev libcli11-dev nlohmann-json3-dev libfmt-dev libmatio-dev libtbb-dev libpng-dev zlib1g-dev libxxhash-dev libjemalloc-dev
   libzip-dev libexpat1-dev libcpp-httplib-dev
   pybind11-dev python3-dev python3-numpy
 )

@@ -48,10 +48,12 @@ struct MinkowskiOptions {
 };
 
 /// How a sum was made, in words: a strategy by its name in the program, `none` if nothing had to be united, `planes`
-/// for unbounded operands; and why that.
+/// for unbounded operands; and why that. With what each way has to do, where that was looked at.
 struct StrategyChoice {
   std::string chosen;
   std::string why;
+  std::size_t pairs_of_cells = 0;      ///< about as many: there is about one cell for each reflex edge, and one more
+  std::size_t convolution_facets = 0;  ///< of the reduced convolution, without what surely lies inside
 };
 
 /// What was done, for people who measure.

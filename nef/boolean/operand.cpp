@@ -14,11 +14,9 @@ namespace nef {
 CommonTables::CommonTables(const Complex& first, const Complex& second, const Monitor& monitor) {
   const auto find_planes = [&](const Monitor& own) { rows_of_second = first.planes.rows_of(second.planes, own); };
   const auto copy = [&](const Monitor&) {
-    planes.reserve(first.planes.size() + second.planes.size(),
-                   std::max(first.planes.limbs_per_plane(), second.planes.limbs_per_plane()));
+    planes.reserve(first.planes.size() + second.planes.size(), first.planes.limbs() + second.planes.limbs());
     planes.append_new(first.planes, 0, first.planes.size());
-    points.reserve(first.points.size() + second.points.size(),
-                   std::max(first.points.limbs_per_point(), second.points.limbs_per_point()));
+    points.reserve(first.points.size() + second.points.size(), first.points.limbs() + second.points.limbs());
     points.append(first.points, 0, first.points.size());
     points.append(second.points, 0, second.points.size());
   };

@@ -58,33 +58,6 @@ Box shifted(const Box& box, const std::array<double, 3>& by) {
   return result;
 }
 
-// Whether a box within some bounds may meet another one when it is moved: as shifted, with one slack for all.
-class MovedBoxes {
- public:
-  MovedBoxes(const Box& bounds, const std::array<double, 3>& by) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      // That of the largest coordinate, and what the sums with `by` round off.
-      const double slack = (std::fabs(bounds.low[i]) + std::fabs(bounds.high[i]) + std::fabs(by[i])) * 0x1p-49 + 1e-300;
-      unknown_[i] = slack < HUGE_VAL ? 0 : 1;
-      low_[i] = by[i] - slack;
-      high_[i] = by[i] + slack;
-    }
-  }
-
-  bool operator()(const Box& box, const Box& other) const {
-    unsigned meet = 1;
-    for (std::size_t i = 0; i < 3; ++i) {
-      meet &= unknown_[i] | (static_cast<unsigned>(box.low[i] + low_[i] <= other.high[i]) &
-                             static_cast<unsigned>(other.low[i] <= box.high[i] + high_[i]));
-    }
-    return meet != 0;
-  }
-
- private:
-  std::array<double, 3> low_{}, high_{};
-  std::array<unsigned, 3> unknown_{};
-};
-
 Approximation3 moved_by(const Approximation3& point, const Approximation3& by) {
   return {point[0] + by[0], point[1] + by[1], point[2] + by[2]};
 }
@@ -101,6 +74,7 @@ struct Side {
       boxes.push_back(edge_box(c, h));
     }
     edge_tree = BoxTree(boxes);
+    rough_edges = edge_tree.rough();
     boxes.clear();
     for (const Facet& facet : c.facets) {
       boxes.push_back(facet_box(c, facet));
@@ -108,6 +82,7 @@ struct Side {
       if (c.corners_of(facet).size() >= kMany) trees.emplace(boxes.size() - 1, facet_edge_tree(c, facet));
     }
     facet_tree = BoxTree(boxes);
+    rough_facets = facet_tree.rough();
     bounds = vertices_box(c);
     for (std::uint32_t v = 0; v < c.vertex_count(); ++v) {
       part.push_back(connected.find(v));
@@ -134,17 +109,19 @@ struct Side {
   std::vector<EdgeEnds> edges, bare;     // bare edges bound no facet
   std::optional<CrossingFilter> filter;  // once the points are known
   BoxTree edge_tree, facet_tree;
+  BoxTree::Rough rough_edges, rough_facets;
   std::unordered_map<std::size_t, BoxTree> trees;  // of facets with many corners
   Box bounds;
   std::vector<std::uint32_t> part;   // per vertex, one of those that edges connect it with
   std::vector<std::uint32_t> parts;  // these
 };
 
-// Calls visit(edge, facet) for pairs of an edge of one side, moved, and a facet of the other one whose boxes meet,
-// until it returns false.
+// Calls visit(edge, facet) for pairs of an edge of one side, moved, and a facet of the other one whose boxes meet, or
+// all but do, until it returns false.
 template <typename Visit>
 void for_each_near_pair(const Side& own, const std::array<double, 3>& by, const Side& other, Visit&& visit) {
-  own.edge_tree.for_each_pair_with(other.facet_tree, MovedBoxes(own.bounds, by), visit);
+  own.edge_tree.for_each_pair_with(own.rough_edges, other.facet_tree, other.rough_facets,
+                                   RoughBox::Moved(own.bounds, by), visit);
 }
 
 // The planes of a complex, moved to the origin, in a common table: equal where normals are.

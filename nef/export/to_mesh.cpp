@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // 1. Volumes are sorted into selected (bounded), unselected, and those that no mesh holds. The boundary is the facets
-// between a selected volume and any other. 2. The vertices of these facets get numbers, in their order. 3. A triangle
-// is written as it is. Other facets are kept as polygons if the options allow it, and triangulated if not; vertices
-// inside a facet become holes of one point, so that triangles end there. 4. All items are looked at for what the mesh
-// does not say of the set. A vertex with the same pattern that sees the same volumes as the last one has the same
-// losses, which makes this a few comparisons a vertex.
+// between a selected volume and any other. 2. The vertices of these facets get numbers, in their order. Where these are
+// all that there are, as in most sets, no numbers are made. 3. A triangle is written as it is. Other facets are kept as
+// polygons if the options allow it, and triangulated if not; vertices inside a facet become holes of one point, so that
+// triangles end there. 4. All items are looked at for what the mesh does not say of the set. A vertex with the same
+// pattern that sees the same volumes as the last one has the same losses, which makes this a few comparisons a vertex.
 #include "nef/export/to_mesh.h"
 
 #include <algorithm>
@@ -23,13 +23,6 @@ namespace {
 
 constexpr std::uint32_t kUnused = 0xffffffffU;
 
-// The one quotient of such integers is all that is rounded.
-bool are_doubles(const std::array<std::int64_t, 7>& homogeneous) {
-  constexpr std::int64_t kLimit = std::int64_t{1} << 53U;
-  return std::all_of(homogeneous.begin(), homogeneous.begin() + 4,
-                     [](std::int64_t x) { return x <= kLimit && x >= -kLimit; });
-}
-
 class Exporter {
  public:
   Exporter(const Complex& complex, const MeshExportOptions& options, const Monitor& monitor)
@@ -46,8 +39,8 @@ class Exporter {
     MeshExport result;
     result.mesh = std::move(faces_);
     result.closed = !lower_dimensional_;
-    for (const auto& [v, w] : lines_) result.lines.push_back({number_[v], number_[w]});
-    for (const VertexId v : points_) result.points.push_back(number_[v]);
+    for (const auto& [v, w] : lines_) result.lines.push_back({number(v), number(w)});
+    for (const VertexId v : points_) result.points.push_back(number(v));
     result.lost = losses_.lines();
     result.face_marks = std::move(face_marks_);
     return result;
@@ -65,6 +58,12 @@ class Exporter {
   }
 
  private:
+  // What facets of one mark between the same volumes are.
+  struct FacetKind {
+    bool is_boundary = false;
+    bool is_below = false;  // the solid lies above
+  };
+
   [[nodiscard]] bool is_selected(LabelId mark) const {
     if (mark == kOutside) return false;
     return options_.selected ? options_.selected(mark) : mark != 0;
@@ -93,11 +92,8 @@ class Exporter {
     doubles.reserve(places_.size());
     const PointTable& points = complex_.points;
     const bool all_are_nearest = points.all_are_nearest();  // of those that are finite, as these are
-    PointTable::SmallReader reader(points);
-    std::array<std::int64_t, 7> h;
     for (const PointId p : places_) {
-      const bool is_nearest = all_are_nearest || (reader.read(p, h) && are_doubles(h));
-      doubles.push_back(is_nearest ? points.approximate(p) : nearest_doubles(points, p));
+      doubles.push_back(all_are_nearest ? points.approximate(p) : nearest_doubles(points, p));
     }
     return doubles;
   }
@@ -129,9 +125,13 @@ class Exporter {
   }
 
   void collect_facets() {
+    for (const FacetSides& sides : complex_.facets.kinds()) {
+      const bool above = volumes_[sides.volume_above].selected;
+      kinds_.push_back({above != volumes_[sides.volume_below].selected, above});
+    }
+    boundary_.reserve(complex_.facet_count());
     for (const FacetId f : complex_.facets.ids()) {
-      const FacetSides sides = complex_.facets.sides_of(f);
-      if (volumes_[sides.volume_above].selected != volumes_[sides.volume_below].selected) boundary_.push_back(f);
+      if (kinds_[complex_.facets.kind(f)].is_boundary) boundary_.push_back(f);
     }
   }
 
@@ -175,24 +175,29 @@ class Exporter {
     return false;
   }
 
+  [[nodiscard]] bool has_all_facets() const { return boundary_.size() == complex_.facet_count(); }
+
+  // Every vertex with an arc is a corner of a facet, as each arc is one corner.
+  [[nodiscard]] bool has_all_vertices() const {
+    if (!has_all_facets() || 2 * complex_.corners.size() != complex_.shalfedge_count()) return false;
+    for (std::uint32_t i = 0; i < complex_.patterns.size(); ++i) {
+      if (complex_.patterns.shalfedges(PatternId{i}).empty()) return false;
+    }
+    return true;
+  }
+
   // Vertices keep their order; only those of the boundary get a number.
   void number_vertices() {
+    if (has_all_vertices()) {
+      places_.reserve(complex_.vertex_count());
+      for (const VertexId v : complex_.vertex_ids()) places_.push_back(point_of(v));
+      return;
+    }
     number_.assign(complex_.vertex_count(), kUnused);
     for (const auto& [v, w] : lines_) number_[v] = number_[w] = 0;
     for (const VertexId v : points_) number_[v] = 0;
-    corner_vertices_.reserve(complex_.corners.size());
     for (const FacetId f : boundary_) {
-      const std::span<const SHalfedgeId> corners = complex_.corners_of(f);
-      for (const SHalfedgeId corner : corners) {
-        const VertexId v = complex_.shalfedge_vertex(corner);
-        number_[v] = 0;
-        corner_vertices_.push_back(v);
-      }
-      if (corners.size() != 3) {
-        polygon_corners_ += corners.size();
-      } else if (!complex_.isolated_vertices.empty() && complex_.facets[f].isolated_count != 0) {
-        polygon_corners_ += 3;
-      }
+      for (const SHalfedgeId corner : complex_.corners_of(f)) number_[complex_.shalfedge_vertex(corner)] = 0;
     }
     for (const VertexId v : number_.ids()) {
       if (number_[v] == kUnused) continue;
@@ -202,20 +207,33 @@ class Exporter {
     }
   }
 
-  // `corners`: the vertices of the facet's corners, cycle after cycle.
-  void collect_rings(const Facet& facet, const VertexId* corners) {
-    ring_end_.clear();
-    std::uint32_t size = 0;
-    for (const CycleId cycle : facet.cycles()) {
-      size += static_cast<std::uint32_t>(complex_.corners_of(cycle).size());
-      ring_end_.push_back(size);
+  // Or kUnused.
+  [[nodiscard]] std::uint32_t number(VertexId v) const { return number_.empty() ? v.index() : number_[v]; }
+  [[nodiscard]] std::uint32_t number(SHalfedgeId corner) const { return number(complex_.shalfedge_vertex(corner)); }
+
+  void count_corners() {
+    const bool has_points = !complex_.isolated_vertices.empty();
+    for (const FacetId f : boundary_) {
+      const Facet facet = complex_.facets[f];
+      const std::size_t corners = complex_.corners_of(facet).size();
+      corner_count_ += corners;
+      cycle_count_ += facet.cycle_count;
+      if (corners != 3 || (has_points && facet.isolated_count != 0)) polygon_corners_ += corners;
     }
-    rings_.resize(size);
-    for (std::uint32_t i = 0; i < size; ++i) rings_[i] = number_[corners[i]];
+  }
+
+  void collect_rings(const Facet& facet) {
+    const std::span<const SHalfedgeId> corners = complex_.corners_of(facet);
+    rings_.resize(corners.size());
+    for (std::size_t i = 0; i < corners.size(); ++i) rings_[i] = number(corners[i]);
+    ring_end_.clear();
+    for (const CycleId cycle : facet.cycles()) {
+      ring_end_.push_back(complex_.cycle_begin[cycle.next()] - complex_.cycle_begin[facet.first_cycle]);
+    }
     // Where another part of the boundary touches the facet in a point, triangles end, too.
     for (const VertexId v : complex_.isolated_vertices_of(facet)) {
-      if (number_[v] == kUnused) continue;
-      rings_.push_back(number_[v]);
+      if (number(v) == kUnused) continue;
+      rings_.push_back(number(v));
       ring_end_.push_back(static_cast<std::uint32_t>(rings_.size()));
     }
   }
@@ -243,77 +261,68 @@ class Exporter {
     std::vector<std::uint32_t> asked;  // all, unless these are much fewer
     if (polygon_corners_ < places_.size() / 2 && complex_.isolated_vertices.empty()) {
       asked.reserve(polygon_corners_);
-      const VertexId* corners = corner_vertices_.data();
       for (const FacetId f : boundary_) {
-        const std::span<const SHalfedgeId> of_facet = complex_.corners_of(f);
-        if (of_facet.size() != 3) {
-          for (std::size_t i = 0; i < of_facet.size(); ++i) asked.push_back(number_[corners[i]]);
-        }
-        corners += of_facet.size();
+        const std::span<const SHalfedgeId> corners = complex_.corners_of(f);
+        if (corners.size() == 3) continue;
+        for (const SHalfedgeId corner : corners) asked.push_back(number(corner));
       }
     }
     return MeshPoints(complex_.points, places_, doubles, asked);
   }
 
-  // The outer cycle has three corners at least.
-  [[nodiscard]] bool is_triangle(const Facet& facet) const {
-    return facet.isolated_count == 0 && complex_.corners_of(facet).size() == 3;
-  }
-
   // As many as there are if none stays a polygon: a facet of n corners in c cycles with i points inside is
   // n + 2 c - 4 + 2 i triangles.
   void reserve_faces() {
-    std::size_t cycles = complex_.cycle_begin.size() - 1;
-    if (boundary_.size() != complex_.facet_count()) {
-      cycles = 0;
-      for (const FacetId f : boundary_) cycles += complex_.facets[f].cycle_count;
-    }
-    std::size_t count = corner_vertices_.size() + 2 * cycles + 2 * complex_.isolated_vertices.size();
+    std::size_t count = corner_count_ + 2 * cycle_count_ + 2 * complex_.isolated_vertices.size();
     count -= 4 * boundary_.size();
     faces_.face_begin.resize(options_.keep_polygons ? boundary_.size() + 1 : count + 1);
-    faces_.corners.resize(options_.keep_polygons ? corner_vertices_.size() : 3 * count);
+    faces_.corners.resize(options_.keep_polygons ? corner_count_ : 3 * count);
+    corner_count_ = 0;
   }
 
   void write_facets(std::span<const std::array<double, 3>> doubles) {
+    count_corners();
     const MeshPoints points = points_of_polygons(doubles);
     Triangulator triangulator(points, monitor_);
     reserve_faces();
-    const VertexId* corners = corner_vertices_.data();
+    const bool has_points = !complex_.isolated_vertices.empty();
     for (const FacetId f : boundary_) {
-      const Facet& facet = complex_.facets[f];
       // Cycles turn counterclockwise as seen from above, which is outside if the solid lies below.
-      const bool flip = volumes_[facet.volume_above].selected;
-      note_marks(facet, flip);
-      if (is_triangle(facet)) {
-        const std::array<std::uint32_t, 3> v{number_[corners[0]], number_[corners[1]], number_[corners[2]]};
-        corners += 3;
-        push_triangle(v, flip);
-        continue;
+      const bool flip = kinds_[complex_.facets.kind(f)].is_below;
+      const std::span<const SHalfedgeId> corners = complex_.corners_of(f);
+      if (options_.face_marks) note_marks(complex_.facets[f], flip);
+      // The outer cycle has three corners at least.
+      if (corners.size() == 3 && !(has_points && complex_.facets[f].isolated_count != 0)) {
+        push_triangle({number(corners[0]), number(corners[1]), number(corners[2])}, flip);
+      } else {
+        write_polygon(complex_.facets[f], flip, triangulator);
       }
-      collect_rings(facet, corners);
-      corners += complex_.corners_of(facet).size();
-      const ProjectionAxis projection = projection_axis(complex_.planes, facet.plane);
-      if (options_.keep_polygons && ring_end_.size() == 1 &&
-          (!options_.only_quads || (rings_.size() <= 4 && triangulator.is_convex(rings_, projection.axis))) &&
-          may_stay_polygon(rings_)) {
-        if (flip) std::reverse(rings_.begin(), rings_.end());
-        std::ranges::copy(rings_, room_for_faces(1, rings_.size()));
-        end_face(rings_.size());
-        continue;
-      }
-      triangles_.clear();
-      const bool done = triangulator.triangulate(rings_, ring_end_, projection.axis, projection.sign, triangles_);
-      NEF_ASSERT(done);
-      push_triangles(triangles_, flip);
     }
-    fill_marks();
+    if (options_.face_marks) fill_marks();
     faces_.face_begin.resize(face_count_ + 1);
     faces_.corners.resize(corner_count_);
   }
 
+  // Kept, or in triangles.
+  void write_polygon(const Facet& facet, bool flip, Triangulator& triangulator) {
+    collect_rings(facet);
+    const ProjectionAxis projection = projection_axis(complex_.planes, facet.plane);
+    if (options_.keep_polygons && ring_end_.size() == 1 &&
+        (!options_.only_quads || (rings_.size() <= 4 && triangulator.is_convex(rings_, projection.axis))) &&
+        may_stay_polygon(rings_)) {
+      if (flip) std::reverse(rings_.begin(), rings_.end());
+      std::ranges::copy(rings_, room_for_faces(1, rings_.size()));
+      end_face(rings_.size());
+      return;
+    }
+    triangles_.clear();
+    const bool done = triangulator.triangulate(rings_, ring_end_, projection.axis, projection.sign, triangles_);
+    NEF_ASSERT(done);
+    push_triangles(triangles_, flip);
+  }
+
   // Of the faces since the last facet, and then of this one's first.
   void note_marks(const Facet& facet, bool flip) {
-    if (!options_.face_marks) return;
     fill_marks();
     std::array<LabelId, 3> marks{complex_.volumes[facet.volume_below].mark, complex_.volumes[facet.volume_above].mark,
                                  facet.mark};
@@ -327,13 +336,12 @@ class Exporter {
 
   // The corners begin where they would if the face were kept as a polygon, or were triangulated.
   void push_triangle(const std::array<std::uint32_t, 3>& v, bool flip) {
-    std::array<std::uint32_t, 3> face{v[2], v[0], v[1]};
-    if (options_.keep_polygons) {
-      face = flip ? std::array<std::uint32_t, 3>{v[2], v[1], v[0]} : v;
-    } else if (flip) {
-      std::swap(face[1], face[2]);
-    }
-    push_triangles({&face, 1}, false);
+    const bool turned = flip || !options_.keep_polygons;
+    std::uint32_t* const to = room_for_faces(1, 3);
+    to[0] = turned ? v[2] : v[0];
+    to[1] = turned && !flip ? v[0] : v[1];
+    to[2] = flip ? v[0] : turned ? v[1] : v[2];
+    end_face(3);
   }
 
   void push_triangles(std::span<const Triangulator::Triangle> triangles, bool flip) {
@@ -370,16 +378,27 @@ class Exporter {
     if (!sides.selected && !sides.other && selected && !lower_dimensional_) to.flat.*member += count;
   }
 
-  void look_for_losses() {
-    for (const FacetId f : complex_.facets.ids()) {
-      const FacetSides facet = complex_.facets.sides_of(f);
-      SeenVolumes sides = volumes_[facet.volume_above];
-      sides.add(volumes_[facet.volume_below]);
-      judge(sides, facet.mark, &ItemCounts::facets, 1, losses_);
+  // Few sets have facets that are lost.
+  void look_for_lost_facets() {
+    const std::span<const FacetSides> kinds = complex_.facets.kinds();
+    std::vector<MeshLosses> of_kind(kinds.size());
+    bool any = false;
+    for (std::size_t i = 0; i < kinds.size(); ++i) {
+      SeenVolumes sides = volumes_[kinds[i].volume_above];
+      sides.add(volumes_[kinds[i].volume_below]);
+      judge(sides, kinds[i].mark, &ItemCounts::facets, 1, of_kind[i]);
+      any = any || of_kind[i].flat.any() || of_kind[i].open.any() || of_kind[i].cracks.any();
     }
+    if (!any) return;
+    for (const FacetId f : complex_.facets.ids()) losses_ += of_kind[complex_.facets.kind(f)];
+  }
+
+  void look_for_losses() {
+    look_for_lost_facets();
     // Then whatever lies in the closure of a facet sees a volume of the mesh, and is lost only if it is not selected.
-    const bool all_facets = boundary_.size() == complex_.facet_count() && !lower_dimensional_;
+    const bool all_facets = has_all_facets() && !lower_dimensional_;
     const std::vector<bool> keeps_all = all_facets ? whole_patterns() : std::vector<bool>(complex_.patterns.size());
+    if (std::find(keeps_all.begin(), keeps_all.end(), false) == keeps_all.end()) return;
     // What a vertex and the ends of edges there add is the same for those that have a pattern and see the same volumes.
     struct Known {
       std::vector<SeenVolumes> seen;  // by each sface
@@ -469,9 +488,10 @@ class Exporter {
   Monitor monitor_;
   IndexedVector<VolumeId, SeenVolumes> volumes_;
   std::vector<FacetId> boundary_;
-  std::vector<VertexId> corner_vertices_;          // of the complex, of all corners of these
+  std::vector<FacetKind> kinds_;
+  std::size_t cycle_count_ = 0;                    // of facets of the boundary
   std::size_t polygon_corners_ = 0;                // those of facets that are no triangles
-  IndexedVector<VertexId, std::uint32_t> number_;  // in the mesh, of each vertex
+  IndexedVector<VertexId, std::uint32_t> number_;  // in the mesh, of each vertex; empty: their own
   std::vector<Answer> passes_;                     // of each vertex of the mesh: may it be a corner of a polygon?
   std::vector<std::array<VertexId, 2>> lines_;     // of the complex
   std::vector<VertexId> points_;

@@ -3,62 +3,25 @@
 // Coefficients are divided by their common factor and made positive in the first non-zero component of the normal, so
 // equal planes have equal rows; a hash table with open addressing, at most half full, finds them. It is filled when the
 // first plane is looked for, since most finished tables are only read. Tables are compared in bulk: hashes of the
-// smaller table are put into slots, on several threads, and the rows of the larger one are looked up.
+// smaller table are put into slots, on several threads, and the rows of the larger one are looked up. Where planes are
+// merged at the end, a bit for each hash tells nearly all that equal no other one.
 #include "nef/geometry/plane_table.h"
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <utility>
 
-#include "nef/base/capacity.h"
 #include "nef/base/error.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/number/int128.h"
 
 namespace nef {
-namespace {
 
-// value / 2^top in doubles, cut off after 53 bits, which is within 2^-52: the bits that count, times a power of two.
-double scaled(Int128 value, long top) {
-  const Unsigned128 size = magnitude(value);
-  const int dropped = std::max(0, bit_width(size) - 53);
-  const auto bits = static_cast<double>(static_cast<std::int64_t>(size >> dropped));
-  const auto power = std::bit_cast<double>(static_cast<std::uint64_t>(1023 + dropped - top) << 52U);
-  return value < 0 ? -bits * power : bits * power;
-}
-
-// The number of bits of an integer that is not 0.
-long bits_of(mpz_srcptr value) {
-  const auto last = static_cast<mp_size_t>(mpz_size(value) - 1);
-  return 64 * last + static_cast<long>(std::bit_width(mpz_getlimbn(value, last)));
-}
-
-// The same for any integer.
-double scaled(mpz_srcptr value, long top) {
-  static_assert(GMP_NUMB_BITS == 64);
-  if (mpz_sgn(value) == 0) return 0.0;
-  const auto last = static_cast<mp_size_t>(mpz_size(value) - 1);
-  mp_limb_t bits = mpz_getlimbn(value, last);
-  const int unused = std::countl_zero(bits);
-  if (unused > 0) bits = bits << unused | (last > 0 ? mpz_getlimbn(value, last - 1) >> (64 - unused) : 0);
-  const auto first = static_cast<double>(static_cast<std::int64_t>(bits >> 11U));  // 53 bits
-  const double mantissa = mpz_sgn(value) < 0 ? -first : first;
-  const long shift = 64 * (last + 1) - unused - top;  // the value is below 2^shift
-  if (shift > 1023) return mantissa < 0 ? -HUGE_VAL : HUGE_VAL;
-  if (shift < -1060) return 0.0;
-  constexpr long kLeast = -960;  // above it neither the power of two nor the value is too small for all its bits
-  if (shift < kLeast) return std::ldexp(mantissa, static_cast<int>(shift) - 53);
-  return mantissa * std::bit_cast<double>(static_cast<std::uint64_t>(1023 + shift - 53) << 52U);
-}
-
-}  // namespace
-
-// The candidate is the last row; keep it, with the doubles that `approximate` gives, only if no equal row exists.
-template <typename Approximate>
-PlaneId PlaneTable::find_or_add_last(Approximate&& approximate) {
+// The candidate is the last row; keep it only if no equal row exists.
+PlaneId PlaneTable::find_or_add_last() {
   const auto candidate = static_cast<std::uint32_t>(rows_.size() - 1);
-  make_room_for(1);
+  if (!merges_) return PlaneId{candidate << 1U};
+  make_room_for(1, candidate);
   const std::uint32_t hash = RowSlots::hash_of(rows_, candidate);
   RowSlots::Slot& slot = slots_.find(rows_, hash, rows_, candidate);
   if (!slot.empty()) {
@@ -66,28 +29,16 @@ PlaneId PlaneTable::find_or_add_last(Approximate&& approximate) {
     return PlaneId{slot.row << 1U};
   }
   slot = {candidate, hash};
-  approximate_.push_back(approximate());
   return PlaneId{candidate << 1U};
-}
-
-void PlaneTable::reserve(std::size_t planes, std::size_t limbs) {
-  rows_.reserve(planes, limbs);
-  approximate_.reserve(planes);
 }
 
 void PlaneTable::keep(std::span<const std::uint8_t> used) {
   slots_.clear();
   rows_.keep(used);
-  std::size_t kept = 0;
-  for (std::size_t row = 0; row < used.size(); ++row) {
-    if (used[row] != 0) approximate_[kept++] = approximate_[row];
-  }
-  approximate_.resize(kept);
 }
 
 void PlaneTable::trim() {
   rows_.trim();
-  trim_capacity(approximate_);
   slots_.clear();
 }
 
@@ -146,24 +97,20 @@ PlaneId PlaneTable::intern_primitive(const std::array<Int128, 5>& plane) {
     for (Int128& value : row) value = -value;
   }
   rows_.push(row);
-  const PlaneId result = find_or_add_last([&row] {
-    const int top = bit_width(magnitude(row[0]) | magnitude(row[1]) | magnitude(row[2]));
-    const double offset = row[4] == 0 ? scaled(row[3], top) : (row[4] > 0 ? HUGE_VAL : -HUGE_VAL);
-    return std::array<double, 4>{scaled(row[0], top), scaled(row[1], top), scaled(row[2], top), offset};
-  });
+  const PlaneId result = find_or_add_last();
   return flip ? result.opposite() : result;
 }
 
 PlaneId PlaneTable::intern_from(const PlaneTable& other, PlaneId plane) {
   if (&other == this) return plane;
   // The other row is normalized already; only its place in this table is in question.
-  make_room_for(1);
+  make_room_for(1, size());
   const std::uint32_t hash = RowSlots::hash_of(other.rows_, plane.row());
   RowSlots::Slot& slot = slots_.find(rows_, hash, other.rows_, plane.row());
   if (!slot.empty()) return PlaneId{slot.row << 1U | (plane.value & 1U)};
-  const std::uint32_t row = rows_.push_from(other.rows_, plane.row());
+  const auto row = static_cast<std::uint32_t>(size());
+  rows_.push_from(other.rows_, plane.row());
   slot = {row, hash};
-  approximate_.push_back(other.approximate_[plane.row()]);
   return PlaneId{row << 1U | (plane.value & 1U)};
 }
 
@@ -171,7 +118,7 @@ PlaneId PlaneTable::intern_from(const PlaneTable& other, PlaneId plane) {
 std::vector<std::uint32_t> PlaneTable::intern_all(const PlaneTable& other) {
   NEF_ASSERT(&other != this);
   const std::size_t count = other.size();
-  make_room_for(count);
+  make_room_for(count, size());
   std::vector<std::uint32_t> hashes(count);
   for (std::uint32_t row = 0; row < count; ++row) {
     hashes[row] = RowSlots::hash_of(other.rows_, row);
@@ -189,26 +136,74 @@ std::vector<std::uint32_t> PlaneTable::intern_all(const PlaneTable& other) {
       slots_.add_new(row, hashes[last]);
     }
     if (last == first) continue;
-    append(other, first, last - first);
+    rows_.append(other.rows_, first, last - first);
     first = last;
   }
   return result;
 }
 
+void PlaneTable::merge_later() {
+  slots_.clear();
+  merges_ = false;
+}
+
+namespace {
+
+// The rows whose hash another one has, too, and few others: those whose hash sets a bit that was set before.
+std::vector<std::uint32_t> rows_of_common_hash(std::span<const std::uint32_t> hashes) {
+  constexpr std::size_t kBits = 32;  // a row: one of so many is taken for another one's
+  const std::size_t count = std::bit_ceil(kBits * (hashes.size() + 2));
+  std::vector<std::uint64_t> once(count / 64);
+  std::vector<std::uint64_t> twice(count / 64);
+  const auto word = [count](std::uint32_t hash) { return (hash & (count - 1)) / 64; };
+  const auto bit = [](std::uint32_t hash) { return std::uint64_t{1} << (hash % 64); };
+  for (const std::uint32_t hash : hashes) {
+    twice[word(hash)] |= once[word(hash)] & bit(hash);
+    once[word(hash)] |= bit(hash);
+  }
+  std::vector<std::uint32_t> result;
+  for (std::uint32_t row = 0; row < hashes.size(); ++row) {
+    if ((twice[word(hashes[row])] & bit(hashes[row])) != 0) result.push_back(row);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> PlaneTable::merge_equal() {
+  merges_ = true;
+  const auto count = static_cast<std::uint32_t>(size());
+  std::vector<std::uint32_t> hashes(count);
+  for (std::uint32_t row = 0; row < count; ++row) hashes[row] = RowSlots::hash_of(rows_, row);
+  const std::vector<std::uint32_t> candidates = rows_of_common_hash(hashes);
+  RowSlots slots;
+  slots.reserve(candidates.size());
+  std::vector<std::uint32_t> first_equal;  // of each candidate
+  std::size_t equal = 0;
+  for (const std::uint32_t row : candidates) {
+    RowSlots::Slot& slot = slots.find(rows_, hashes[row], rows_, row);
+    if (slot.empty()) slot = {row, hashes[row]};
+    first_equal.push_back(slot.row);
+    equal += slot.row != row ? 1 : 0;
+  }
+  if (equal == 0) return {};
+  std::vector<std::uint32_t> result(count);
+  std::vector<std::uint8_t> used(count, 1);
+  for (std::size_t i = 0; i < candidates.size(); ++i) used[candidates[i]] = first_equal[i] == candidates[i] ? 1 : 0;
+  for (std::uint32_t row = 0, kept = 0; row < count; ++row) result[row] = used[row] != 0 ? kept++ : kNotHere;
+  for (std::size_t i = 0; i < candidates.size(); ++i) result[candidates[i]] = result[first_equal[i]];
+  keep(used);
+  return result;
+}
+
 std::uint32_t PlaneTable::append_new(const PlaneTable& other, std::uint32_t row) {
   slots_.clear();
-  approximate_.push_back(other.approximate_[row]);
-  return rows_.push_from(other.rows_, row);
+  rows_.push_from(other.rows_, row);
+  return static_cast<std::uint32_t>(size() - 1);
 }
 
 void PlaneTable::append_new(const PlaneTable& other, std::size_t first, std::size_t count) {
   slots_.clear();
-  append(other, first, count);
-}
-
-void PlaneTable::append(const PlaneTable& other, std::size_t first, std::size_t count) {
-  const auto from = other.approximate_.begin() + static_cast<std::ptrdiff_t>(first);
-  approximate_.insert(approximate_.end(), from, from + static_cast<std::ptrdiff_t>(count));
   rows_.append(other.rows_, first, count);
 }
 
@@ -219,8 +214,8 @@ std::vector<std::uint32_t> PlaneTable::rows_of(const PlaneTable& other, const Mo
   std::vector<std::uint32_t> result(other.size(), kNotHere);
   if (other.size() == 0 || size() == 0) return result;
   const bool other_is_smaller = other.size() < size();
-  const IntegerRows& few = other_is_smaller ? other.rows_ : rows_;
-  const IntegerRows& many = other_is_smaller ? rows_ : other.rows_;
+  const PlaneRows& few = other_is_smaller ? other.rows_ : rows_;
+  const PlaneRows& many = other_is_smaller ? rows_ : other.rows_;
   std::vector<std::uint32_t> hashes(few.size());
   parallel_for_ranges(few.size(), kTogether, monitor, [&](std::size_t first, std::size_t last, const Monitor&) {
     for (auto row = static_cast<std::uint32_t>(first); row < last; ++row) hashes[row] = RowSlots::hash_of(few, row);
@@ -265,34 +260,15 @@ Integer PlaneTable::oriented_coefficient(PlaneId plane, std::size_t column) cons
   return plane.flipped() ? Integer(-result) : result;
 }
 
-PlaneId PlaneTable::find_or_add_last() {
-  return find_or_add_last([this] {
-    const std::array<IntegerView, 5> row = rows_.first<5>(static_cast<std::uint32_t>(rows_.size() - 1));
-    long top = std::numeric_limits<long>::min();
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (row[i].sign() != 0) top = std::max(top, bits_of(row[i]));
-    }
-    std::array<double, 4> result{};
-    for (std::size_t i = 0; i < 4; ++i) result[i] = scaled(row[i], top);
-    if (row[4].sign() != 0) result[3] = row[4].sign() > 0 ? HUGE_VAL : -HUGE_VAL;
-    // What is lost here may be all that matters at a point far away.
-    constexpr double kLeast = 0x1p-1000;
-    for (std::size_t i = 0; i < 3; ++i) {
-      if (row[i].sign() != 0 && std::fabs(result[i]) < kLeast) result[3] = HUGE_VAL;
-    }
-    return result;
-  });
-}
-
-void PlaneTable::make_room_for(std::size_t more) {
-  const std::size_t planes = approximate_.size();  // a candidate is not among them
+// Beside so many of the planes, which a candidate is not among.
+void PlaneTable::make_room_for(std::size_t more, std::size_t planes) {
   if (2 * (planes + more) <= slots_.size()) return;
   const bool anew = slots_.size() == 0;
-  slots_.reserve(std::max({2 * planes + 4, planes + more, approximate_.capacity()}));
+  slots_.reserve(std::max({2 * planes + 4, planes + more, rows_.capacity()}));
   if (!anew) return;
   for (std::uint32_t row = 0; row < planes; ++row) slots_.add_new(row, RowSlots::hash_of(rows_, row));
 }
 
-std::size_t PlaneTable::bytes() const { return rows_.bytes() + held_bytes(approximate_) + slots_.bytes(); }
+std::size_t PlaneTable::bytes() const { return rows_.bytes() + slots_.bytes(); }
 
 }  // namespace nef

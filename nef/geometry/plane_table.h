@@ -12,6 +12,7 @@
 
 #include "nef/base/monitor.h"
 #include "nef/geometry/ids.h"
+#include "nef/geometry/rows/plane_rows.h"
 #include "nef/number/row_slots.h"
 
 namespace nef {
@@ -22,8 +23,6 @@ namespace nef {
 /// planes of an infimaximal box and what transformations make of them.
 class PlaneTable {
  public:
-  PlaneTable() : rows_(5) {}
-
   /// The oriented plane with the given coefficients; its positive side is where the form is
   /// positive. Adds it if it is new. The normal must not be zero. Expected O(1).
   PlaneId intern(const Integer& a, const Integer& b, const Integer& c, const Integer& d, const Integer& e = 0);
@@ -38,6 +37,13 @@ class PlaneTable {
   PlaneId intern_from(const PlaneTable& other, PlaneId plane);
   /// The same for all planes of another table: the row of each. In less time than one by one.
   std::vector<std::uint32_t> intern_all(const PlaneTable& other);
+
+  /// From now on planes are appended without being looked for, so that equal ones have several rows, until
+  /// merge_equal(). Many different planes take less time so.
+  void merge_later();
+  /// Keeps the first one of equal planes, in their order: for each row the one that it has become, or nothing if no two
+  /// planes were equal. Expected O(planes).
+  std::vector<std::uint32_t> merge_equal();
 
   /// Appends a plane of another table that this one does not hold yet, and returns its row. Cheaper than intern_from:
   /// nothing is looked up.
@@ -64,7 +70,7 @@ class PlaneTable {
   }
 
   /// All five coefficients of the unflipped plane; cheaper than one after another.
-  [[nodiscard]] std::array<IntegerView, 5> coefficients(PlaneId plane) const { return rows_.first<5>(plane.row()); }
+  [[nodiscard]] std::array<IntegerView, 5> coefficients(PlaneId plane) const { return rows_.coefficients(plane.row()); }
 
   /// All five coefficients of the unflipped plane, if they are below 2^62 in magnitude; else false.
   [[nodiscard]] bool small_coefficients(PlaneId plane, std::array<std::int64_t, 5>& out) const {
@@ -78,17 +84,17 @@ class PlaneTable {
   /// that the largest normal component lies in [1/2, 1); each within 2^-52 relative of the truth.
   /// The offset is infinite for a plane with a factor of R, and where a component of the normal is
   /// so small beside the largest that doubles do not hold it: no filter decides then.
-  [[nodiscard]] const std::array<double, 4>& approximate(PlaneId plane) const { return approximate_[plane.row()]; }
+  [[nodiscard]] const std::array<double, 4>& approximate(PlaneId plane) const { return rows_.approximate(plane.row()); }
 
   /// True if the plane has a part in R.
   [[nodiscard]] bool infimaximal(PlaneId plane) const { return rows_.sign(plane.row(), 4) != 0; }
 
   [[nodiscard]] std::size_t bytes() const;
 
-  /// Makes room for this many planes of this many limbs each on average.
-  void reserve(std::size_t planes, std::size_t limbs = 5);
-  /// Of a plane, on average, rounded up.
-  [[nodiscard]] std::size_t limbs_per_plane() const { return rows_.limbs_per_row(); }
+  /// Makes room for this many planes, and for this many limbs beside what every plane takes.
+  void reserve(std::size_t planes, std::size_t limbs = 0) { rows_.reserve(planes, limbs); }
+  /// Those of all planes.
+  [[nodiscard]] std::size_t limbs() const { return rows_.limbs(); }
 
   /// Keeps the planes with used[row] other than 0, in their order, without a copy of the table. O(planes).
   void keep(std::span<const std::uint8_t> used);
@@ -98,14 +104,11 @@ class PlaneTable {
 
  private:
   PlaneId find_or_add_last();
-  template <typename Approximate>
-  PlaneId find_or_add_last(Approximate&& approximate);
-  void make_room_for(std::size_t more);
-  void append(const PlaneTable& other, std::size_t first, std::size_t count);
+  void make_room_for(std::size_t more, std::size_t planes);
 
-  IntegerRows rows_;
-  std::vector<std::array<double, 4>> approximate_;
+  PlaneRows rows_;
   RowSlots slots_;  // none until a plane is looked for
+  bool merges_ = true;
 };
 
 }  // namespace nef

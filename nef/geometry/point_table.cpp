@@ -5,9 +5,6 @@
 // not reduced to lowest terms unless `push_reduced` asks for it, since the common factor costs more than it saves.
 #include "nef/geometry/point_table.h"
 
-#include <cmath>
-
-#include "nef/base/capacity.h"
 #include "nef/base/error.h"
 #include "nef/base/fast_path.h"
 #include "nef/number/int128.h"
@@ -15,8 +12,6 @@
 namespace nef {
 
 namespace {
-
-constexpr Int128 kExactDouble = Int128{1} << 53U;  // integers below it are doubles
 
 // The homogeneous coordinates x, y, z, w of a point whose fractions are of one word each, as is their common
 // denominator.
@@ -98,16 +93,8 @@ PointId PointTable::push(const Rational3& point) {
 
 PointId PointTable::push_homogeneous(const std::array<Int128, 7>& h) {
   NEF_ASSERT(h[3] > 0);
-  const PointId id{rows_.push(h)};
-  const auto exact = [&h](std::size_t i) { return h[i] < kExactDouble && -h[i] < kExactDouble; };
-  if (exact(0) && exact(1) && exact(2) && exact(3) && h[4] == 0 && h[5] == 0 && h[6] == 0) {
-    const auto w = static_cast<double>(h[3]);
-    approximate_.push_back(
-        {static_cast<double>(h[0]) / w, static_cast<double>(h[1]) / w, static_cast<double>(h[2]) / w});
-  } else {
-    push_approximation();
-  }
-  return id;
+  rows_.push(h);
+  return PointId{size() - 1};
 }
 
 PointId PointTable::push_homogeneous(std::array<Integer, 7>& h) {
@@ -117,26 +104,13 @@ PointId PointTable::push_homogeneous(std::array<Integer, 7>& h) {
   }
   std::array<mpz_srcptr, 7> row{};
   for (std::size_t i = 0; i < 7; ++i) row[i] = h[i].get_mpz_t();
-  const PointId id{rows_.push(row)};
-  push_approximation();
-  return id;
-}
-
-void PointTable::push_approximation() {
-  const auto row = static_cast<std::uint32_t>(rows_.size() - 1);
-  const IntegerView w = rows_.at(row, 3);
-  std::array<double, 3> approximate{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const int at_infinity = rows_.sign(row, 4 + i);
-    approximate[i] = at_infinity != 0 ? at_infinity * HUGE_VAL : approximate_quotient(rows_.at(row, i), w);
-  }
-  approximate_.push_back(approximate);
+  rows_.push(row);
+  return PointId{size() - 1};
 }
 
 PointId PointTable::push_from(const PointTable& other, PointId point) {
-  const PointId id{rows_.push_from(other.rows_, point.index())};
-  approximate_.push_back(other.approximate_[point.index()]);
-  return id;
+  rows_.push_from(other.rows_, point.index());
+  return PointId{size() - 1};
 }
 
 PointId PointTable::push_reduced(const PointTable& other, PointId point) {
@@ -150,7 +124,7 @@ PointId PointTable::push_reduced(const PointTable& other, PointId point) {
 }
 
 bool PointTable::is_reduced(PointId point, Integer& divisor) const {
-  if (rows_.is_one(point.index(), 3)) {
+  if (rows_.are_integers(point.index())) {
     divisor = 1;
     return true;
   }
@@ -163,8 +137,6 @@ bool PointTable::is_reduced(PointId point, Integer& divisor) const {
 
 void PointTable::append(const PointTable& other, std::size_t first, std::size_t count) {
   rows_.append(other.rows_, first, count);
-  const auto from = other.approximate_.begin() + static_cast<std::ptrdiff_t>(first);
-  approximate_.insert(approximate_.end(), from, from + static_cast<std::ptrdiff_t>(count));
 }
 
 std::optional<PointId> PointTable::push_intersection(const PlaneTable& planes, PlaneId p, PlaneId q, PlaneId r) {
@@ -227,16 +199,8 @@ std::vector<Rational3> PointTable::rationals() const {
   return result;
 }
 
-std::size_t PointTable::bytes() const { return rows_.bytes() + held_bytes(approximate_); }
+std::size_t PointTable::bytes() const { return rows_.bytes(); }
 
-void PointTable::trim() {
-  rows_.trim();
-  trim_capacity(approximate_);
-}
-
-void PointTable::reserve(std::size_t points, std::size_t limbs) {
-  rows_.reserve(points, limbs);
-  approximate_.reserve(points);
-}
+void PointTable::trim() { rows_.trim(); }
 
 }  // namespace nef

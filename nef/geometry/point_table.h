@@ -9,7 +9,7 @@
 
 #include "nef/geometry/ids.h"
 #include "nef/geometry/plane_table.h"
-#include "nef/number/integer_rows.h"
+#include "nef/geometry/rows/point_rows.h"
 
 namespace nef {
 
@@ -18,8 +18,6 @@ namespace nef {
 /// is not zero). The same point may be held more than once.
 class PointTable {
  public:
-  PointTable() : rows_(7) {}
-
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
 
   /// Appends the point with the given finite coordinates.
@@ -47,10 +45,7 @@ class PointTable {
   std::optional<PointId> push_intersection(const PlaneTable& planes, PlaneId p, PlaneId q, PlaneId r);
 
   /// Takes the last point off again.
-  void pop() {
-    rows_.pop();
-    approximate_.pop_back();
-  }
+  void pop() { rows_.pop(); }
 
   /// Homogeneous coordinate: 0..2 for x, y, z; 3 for w; 4..6 for the factors of R.
   [[nodiscard]] IntegerView coordinate(PointId point, std::size_t column) const {
@@ -58,25 +53,17 @@ class PointTable {
   }
 
   /// The homogeneous coordinates x, y, z, w.
-  [[nodiscard]] std::array<IntegerView, 4> coordinates(PointId point) const { return rows_.first<4>(point.index()); }
+  [[nodiscard]] std::array<IntegerView, 4> coordinates(PointId point) const { return rows_.coordinates(point.index()); }
 
   /// All seven homogeneous coordinates, if they are below 2^62 in magnitude; else false.
   [[nodiscard]] bool small_coordinates(PointId point, std::array<std::int64_t, 7>& out) const {
     return rows_.read_small(point.index(), out);
   }
 
-  /// The same for many points; cheaper for those that follow each other. Valid until the table changes.
-  class SmallReader {
-   public:
-    explicit SmallReader(const PointTable& points) : rows_(points.rows_) {}
-    [[nodiscard]] bool read(PointId point, std::array<std::int64_t, 7>& out) { return rows_.read(point.index(), out); }
-
-   private:
-    IntegerRows::SmallReader rows_;
-  };
-
   /// The three doubles of a point.
-  [[nodiscard]] const std::array<double, 3>& approximate(PointId point) const { return approximate_[point.index()]; }
+  [[nodiscard]] const std::array<double, 3>& approximate(PointId point) const {
+    return rows_.approximate(point.index());
+  }
 
   /// True if `approximate` gives the doubles nearest to the coordinates: those of a finite point whose integers are
   /// doubles themselves, as the one quotient is then all that is rounded.
@@ -94,9 +81,7 @@ class PointTable {
   }
 
   /// True if no coordinate has a part in R.
-  [[nodiscard]] bool finite(PointId point) const {
-    return rows_.sign(point.index(), 4) == 0 && rows_.sign(point.index(), 5) == 0 && rows_.sign(point.index(), 6) == 0;
-  }
+  [[nodiscard]] bool finite(PointId point) const { return rows_.is_finite(point.index()); }
 
   /// The exact coordinates of a finite point.
   [[nodiscard]] Rational3 rational(PointId point) const;
@@ -104,12 +89,10 @@ class PointTable {
   [[nodiscard]] std::vector<Rational3> rationals() const;
 
   [[nodiscard]] std::size_t bytes() const;
-  /// Makes room for this many points of this many limbs each on average.
-  void reserve(std::size_t points, std::size_t limbs = 4);
-  /// Of all coordinates together.
+  /// Makes room for this many points, and for this many limbs beside what every point takes.
+  void reserve(std::size_t points, std::size_t limbs = 0) { rows_.reserve(points, limbs); }
+  /// Those of all points.
   [[nodiscard]] std::size_t limbs() const { return rows_.limbs(); }
-  /// Of a point, on average, rounded up.
-  [[nodiscard]] std::size_t limbs_per_point() const { return rows_.limbs_per_row(); }
 
   /// Gives memory back that has been reserved and not used.
   void trim();
@@ -128,10 +111,7 @@ class PointTable {
     Integer minor;
   };
 
-  void push_approximation();
-
-  IntegerRows rows_;
-  std::vector<std::array<double, 3>> approximate_;
+  PointRows rows_;
   Scratch scratch_;
 };
 

@@ -12,6 +12,7 @@
 
 #include "nef/base/error.h"
 #include "nef/base/fast_path.h"
+#include "nef/geometry/compare_points.h"
 #include "nef/geometry/direction_error.h"
 #include "nef/number/int128.h"
 
@@ -66,11 +67,11 @@ int compare_quotients(mpz_srcptr x, mpz_srcptr wp, mpz_srcptr y, mpz_srcptr wq) 
   return mpz_sgn(d);
 }
 
-int compare_coordinate_exact(const PointTable& points, PointId p, PointId q, int axis) {
+int compare_coordinate_exact(const PointTable& points, PointId p, const PointTable& others, PointId q, int axis) {
   const auto k = static_cast<std::size_t>(axis);
   std::array<std::int64_t, 7> a{};
   std::array<std::int64_t, 7> b{};
-  if (kFastPaths && points.small_coordinates(p, a) && points.small_coordinates(q, b)) {
+  if (kFastPaths && points.small_coordinates(p, a) && others.small_coordinates(q, b)) {
     const auto difference = [&](std::size_t i) {
       return static_cast<Int128>(a[i]) * b[3] - static_cast<Int128>(b[i]) * a[3];
     };
@@ -78,10 +79,10 @@ int compare_coordinate_exact(const PointTable& points, PointId p, PointId q, int
     return sign != 0 ? sign : sign_of(difference(k));
   }
   const IntegerView wp = points.coordinate(p, 3);
-  const IntegerView wq = points.coordinate(q, 3);
+  const IntegerView wq = others.coordinate(q, 3);
   // The part in R decides first.
-  const int sign = compare_quotients(points.coordinate(p, 4 + k), wp, points.coordinate(q, 4 + k), wq);
-  return sign != 0 ? sign : compare_quotients(points.coordinate(p, k), wp, points.coordinate(q, k), wq);
+  const int sign = compare_quotients(points.coordinate(p, 4 + k), wp, others.coordinate(q, 4 + k), wq);
+  return sign != 0 ? sign : compare_quotients(points.coordinate(p, k), wp, others.coordinate(q, k), wq);
 }
 
 }  // namespace
@@ -94,10 +95,14 @@ int side_of_plane(const PlaneTable& planes, PlaneId plane, const PointTable& poi
 }
 
 int compare_coordinate(const PointTable& points, PointId p, PointId q, int axis, const Monitor& monitor) {
-  if (p == q) return 0;
+  return p == q ? 0 : compare_coordinate(points, p, points, q, axis, monitor);
+}
+
+int compare_coordinate(const PointTable& points, PointId p, const PointTable& others, PointId q, int axis,
+                       const Monitor& monitor) {
   const auto k = static_cast<std::size_t>(axis);
-  return sign_by_ladder(approximate_difference(points.approximate(p)[k], points.approximate(q)[k]), monitor,
-                        [&] { return compare_coordinate_exact(points, p, q, axis); });
+  return sign_by_ladder(approximate_difference(points.approximate(p)[k], others.approximate(q)[k]), monitor,
+                        [&] { return compare_coordinate_exact(points, p, others, q, axis); });
 }
 
 int compare_lexicographic(const PointTable& points, PointId p, PointId q, const Monitor& monitor) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "nef/import/repair/doubled_faces.h"
+#include "nef/mesh/surface/equal_faces.h"
 
 namespace nef {
 namespace {
@@ -63,12 +64,28 @@ CheckedSurface::CheckedSurface(const Mesh& mesh, Extent extent, Crossings rule, 
   in_contact_ = in_contact_ || faces_without_area_ > 0;
 }
 
+// A face whose corners no other one has encloses something, with all that is connected to it. So the others alone are
+// looked at, but for those that share a side with such a face.
 std::size_t CheckedSurface::cancelled_faces() const {
   const auto is_double = [](const MeshProblem& problem) { return problem.kind == MeshProblemKind::kDuplicateFace; };
   if (std::none_of(problems_.begin(), problems_.end(), is_double)) return 0;
-  std::vector<std::vector<std::uint32_t>> rings(mesh_->face_count());
+  const std::vector<std::uint32_t> first = first_with_corners(*mesh_, *surface_, Monitor());
+  std::vector<bool> alone(first.size(), true);
+  for (std::uint32_t f = 0; f < first.size(); ++f) {
+    if (first[f] != f) alone[f] = alone[first[f]] = false;
+  }
+  std::vector<bool> near_others(surface_->points.size(), false);  // places of faces that are not alone
   for (std::uint32_t f = 0; f < mesh_->face_count(); ++f) {
-    for (const std::uint32_t v : mesh_->face(f)) rings[f].push_back(surface_->place[v]);
+    if (alone[f]) continue;
+    for (const std::uint32_t v : mesh_->face(f)) near_others[surface_->place[v]] = true;
+  }
+  std::vector<std::vector<std::uint32_t>> rings;
+  for (std::uint32_t f = 0; f < mesh_->face_count(); ++f) {
+    std::size_t near = 0;
+    for (const std::uint32_t v : mesh_->face(f)) near += near_others[surface_->place[v]] ? 1 : 0;
+    if (alone[f] && near < 2) continue;  // shares no side with any of them
+    std::vector<std::uint32_t>& ring = rings.emplace_back();
+    for (const std::uint32_t v : mesh_->face(f)) ring.push_back(surface_->place[v]);
   }
   return count_cancelled(std::move(rings));
 }

@@ -54,10 +54,15 @@ SolidFaces MeshFaces::collect(std::span<const std::uint32_t> faces) {
   f_.planes.reserve(order.size());
   f_.begin.reserve(order.size() + 1);
   f_.corners.reserve(corners);
+  f_.planes.merge_later();
   constexpr std::size_t kAhead = 12;  // faces of a mesh without order lie anywhere in memory
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (i + kAhead < order.size()) __builtin_prefetch(mesh_.face(order[i + kAhead]).data());
     add_face(order[i]);
+  }
+  const std::vector<std::uint32_t> rows = f_.planes.merge_equal();
+  if (!rows.empty()) {
+    for (PlaneId& plane : f_.plane) plane = PlaneId{rows[plane.row()] << 1U | (plane.value & 1U)};
   }
   return std::move(f_);
 }
@@ -103,8 +108,7 @@ std::vector<std::uint32_t> MeshFaces::places_of(std::span<const std::uint32_t> f
 
 void MeshFaces::add_points(std::span<const std::uint32_t> places) {
   const PointTable& known = surface_.points.table();
-  constexpr std::size_t kSmall = 4;  // limbs of a point with small integers
-  f_.points.reserve(places.size(), known.size() > 0 ? known.limbs_per_point() : kSmall);
+  f_.points.reserve(places.size(), known.limbs());
   integers_.clear();
   if (known.size() == 0) {
     integers_.reserve(places.size());

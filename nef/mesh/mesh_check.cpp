@@ -16,6 +16,7 @@
 #include "nef/mesh/area_vector.h"
 #include "nef/mesh/edge_order.h"
 #include "nef/mesh/surface/convex_surface.h"
+#include "nef/mesh/surface/equal_faces.h"
 #include "nef/mesh/surface/mesh_surface.h"
 #include "nef/mesh/surface/surface_contacts.h"
 #include "nef/number/brief_text.h"
@@ -130,45 +131,14 @@ bool turned_against(const Mesh& mesh, const MeshSurface& surface, std::uint32_t 
   return false;
 }
 
-void check_duplicates(const Mesh& mesh, const MeshSurface& surface, Report& report) {
+void check_duplicates(const Mesh& mesh, const MeshSurface& surface, Report& report, const Monitor& monitor) {
+  std::vector<std::uint32_t> latest = first_with_corners(mesh, surface, monitor);  // of the faces with these corners
   std::vector<std::array<std::uint32_t, 2>> pairs;
-  // Faces by their sorted corners: first the smallest and a hash, then the list.
-  struct Key {
-    std::uint64_t key = 0;
-    std::uint32_t face = 0;
-  };
-  std::vector<Key> keys;
-  keys.reserve(mesh.face_count());
-  const auto corners = [&](std::uint32_t f) {
-    std::vector<std::uint32_t> result;
-    for (const std::uint32_t v : mesh.face(f)) result.push_back(surface.place[v]);
-    std::sort(result.begin(), result.end());
-    return result;
-  };
-  for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
-    if (surface.defects[f] == FaceDefect::kBadIndex) continue;
-    if (mesh.face(f).empty()) continue;
-    std::uint64_t hash = 0;
-    std::uint32_t smallest = surface.place[mesh.face(f)[0]];
-    for (const std::uint32_t v : mesh.face(f)) {
-      smallest = std::min(smallest, surface.place[v]);
-      std::uint64_t x = surface.place[v] + 0x9e3779b97f4a7c15U;
-      x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-      hash += x ^ (x >> 27U);
-    }
-    keys.push_back({pair_key(smallest, static_cast<std::uint32_t>(hash)), f});
-  }
-  sort_by_pair(keys, mesh.vertices.size());
-  for (std::size_t first = 0, last = 0; first < keys.size(); first = last) {
-    for (last = first + 1; last < keys.size() && keys[last].key == keys[first].key; ++last) {
-    }
-    for (std::size_t i = first; i < last; ++i) {
-      for (std::size_t j = i + 1; j < last; ++j) {
-        if (corners(keys[i].face) != corners(keys[j].face)) continue;
-        pairs.push_back({std::min(keys[i].face, keys[j].face), std::max(keys[i].face, keys[j].face)});
-        break;
-      }
-    }
+  for (std::uint32_t f = 0; f < latest.size(); ++f) {
+    const std::uint32_t first = latest[f];
+    if (first == f) continue;
+    pairs.push_back({latest[first], f});
+    latest[first] = f;
   }
   std::sort(pairs.begin(), pairs.end());
   for (const auto& [f, g] : pairs) {
@@ -409,7 +379,7 @@ std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface
                                     OpenPairs* open) {
   std::optional<std::vector<FaceContact>> own;
   std::optional<std::vector<FaceContact>>& found = contacts == nullptr ? own : *contacts;
-  if (kFastPaths && bounds_small_convex_solid(mesh, surface, monitor)) {
+  if (kFastPaths && bounds_small_convex_solids(mesh, surface, monitor)) {
     found.emplace();
     return {};
   }
@@ -418,7 +388,7 @@ std::vector<MeshProblem> check_mesh(const Mesh& mesh, const MeshSurface& surface
   check_faces(mesh, surface, report);
   bool closed = all_triangles(surface) && meeting.stars().all_closed();
   if (!closed) {
-    check_duplicates(mesh, surface, report);
+    check_duplicates(mesh, surface, report, monitor);
     closed = check_edges(mesh, surface, meeting, report);
   }
   const bool decided = options.only_verdict && !report.is_legal();

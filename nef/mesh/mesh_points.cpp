@@ -149,13 +149,12 @@ bool MeshPoints::enlarge_denominator(std::int64_t more) {
 // The least common denominator. Most points have the denominator of the one before, or one that divides what is known
 // of the common one; else the quotients are taken to lowest terms.
 bool MeshPoints::find_denominator(std::span<const std::uint32_t> asked) {
-  PointTable::SmallReader reader(*other_table_);
   const std::size_t count = asked.empty() ? places_.size() : asked.size();
   std::int64_t last = 1;
   for (std::size_t i = 0; i < count; ++i) {
     const PointId place = places_[asked.empty() ? i : asked[i]];
     Homogeneous h;
-    if (!reader.read(place, h)) {
+    if (!other_table_->small_coordinates(place, h)) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!enlarge_denominator(reduced_denominator(*other_table_, place, axis))) return false;
       }

@@ -17,6 +17,13 @@ namespace {
 
 constexpr std::size_t kMostShort = 9;  // entries of a row of two words each
 
+constexpr std::uint64_t kHashOfNothing = 0x9e3779b97f4a7c15ULL;
+
+std::uint64_t mixed(std::uint64_t hash, std::uint64_t value) {
+  hash = (hash ^ value) * 0xff51afd7ed558ccdULL;
+  return hash ^ hash >> 32;
+}
+
 // Room for that many more at once: a table of one row, as queries make, allocates once.
 template <typename T>
 void make_room(std::vector<T>& values, std::size_t more) {
@@ -91,26 +98,26 @@ std::uint32_t IntegerRows::push(std::span<const Int128> row) {
   NEF_ASSERT(row.size() == width_ && width_ <= kMostShort);
   static_assert(GMP_NUMB_BITS == 64);
   const auto index = static_cast<std::uint32_t>(size());
-  std::array<mp_limb_t, 2 * kMostShort> limbs{};
-  std::array<std::int8_t, kMostShort> sizes{};
+  std::array<mp_limb_t, 2 * kMostShort> limbs;  // set as far as there are limbs
+  std::array<std::int8_t, kMostShort> sizes;
   std::size_t end = 0;
   for (std::size_t i = 0; i < row.size(); ++i) {
     const Unsigned128 size = magnitude(row[i]);
+    const auto low = static_cast<mp_limb_t>(size);
     const auto high = static_cast<mp_limb_t>(size >> 64U);
-    limbs[end] = static_cast<mp_limb_t>(size);
+    limbs[end] = low;
     limbs[end + 1] = high;
-    const int count = high != 0 ? 2 : (limbs[end] != 0 ? 1 : 0);
+    const int count = static_cast<int>(high != 0) + static_cast<int>((low | high) != 0);  // without branches
     sizes[i] = static_cast<std::int8_t>(row[i] < 0 ? -count : count);
     end += static_cast<std::size_t>(count);
   }
   begin_row(end);
-  for (std::size_t i = 0; i < end; ++i) limbs_.push_back(limbs[i]);  // few: faster than a range
-  for (std::size_t i = 0; i < width_; ++i) {
-    if (is_wide_) {
-      wide_.push_back(sizes[i]);
-    } else {
-      sizes_.push_back(sizes[i]);
-    }
+  limbs_.insert(limbs_.end(), limbs.begin(), limbs.begin() + static_cast<std::ptrdiff_t>(end));
+  const auto last_size = sizes.begin() + static_cast<std::ptrdiff_t>(width_);
+  if (is_wide_) {
+    wide_.insert(wide_.end(), sizes.begin(), last_size);
+  } else {
+    sizes_.insert(sizes_.end(), sizes.begin(), last_size);
   }
   end_row();
   return index;
@@ -182,17 +189,28 @@ bool IntegerRows::equal(std::uint32_t row, const IntegerRows& other, std::uint32
                     other.limbs_.begin() + static_cast<std::ptrdiff_t>(other.begin(other_row)));
 }
 
+std::uint64_t IntegerRows::hash_of(std::span<const std::int64_t> row) {
+  std::uint64_t h = kHashOfNothing;
+  std::uint64_t sizes = 0;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (row[i] == 0) continue;
+    h = mixed(h, static_cast<std::uint64_t>(std::abs(row[i])));
+    sizes |= std::uint64_t{row[i] < 0 ? 0xFFU : 1U} << (8 * i);
+  }
+  return mixed(h, sizes);
+}
+
 std::uint64_t IntegerRows::hash(std::uint32_t row) const {
-  std::uint64_t h = 0x9e3779b97f4a7c15ULL;
-  const auto mix = [&h](std::uint64_t value) {
-    h = (h ^ value) * 0xff51afd7ed558ccdULL;
-    h ^= h >> 32;
-  };
-  for (const mp_limb_t limb : limbs_of(row)) mix(limb);
-  std::uint64_t sizes = 0;  // a byte of each, which is all of it but for giants
-  for (std::size_t i = 0; i < width_; ++i) sizes = sizes << 8U | static_cast<std::uint8_t>(size(row * width_ + i));
-  mix(sizes);
-  return h;
+  std::uint64_t h = kHashOfNothing;
+  for (const mp_limb_t limb : limbs_of(row)) h = mixed(h, limb);
+  std::uint64_t sizes = 0;  // a byte of each, which is all of it but for giants and for the last ones of wide rows
+  if (std::endian::native == std::endian::little && !is_wide_ && width_ <= kPadding) {
+    std::memcpy(&sizes, &sizes_[(row + std::size_t{1}) * width_], kPadding);  // ends where the row does
+    sizes >>= 8 * (kPadding - width_);
+  } else {
+    for (std::size_t i = width_; i-- > 0;) sizes = sizes << 8U | static_cast<std::uint8_t>(size(row * width_ + i));
+  }
+  return mixed(h, sizes);
 }
 
 void IntegerRows::pop() {

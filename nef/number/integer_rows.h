@@ -20,7 +20,8 @@
 
 namespace nef {
 
-/// A read-only view of one integer of an IntegerRows. Valid until the table changes.
+/// A read-only view of one integer of a table, or an integer of two words that a table made up. Valid until the table
+/// changes.
 class IntegerView {
  public:
   /// The highest limb is not zero. The limbs of zero are not looked at: behind the last entry of a table there may be
@@ -28,11 +29,27 @@ class IntegerView {
   /// mpz_fits_slong_p, mpz_odd_p).
   IntegerView(const mp_limb_t* limbs, int signed_size)
       : value_ MPZ_ROINIT_N(const_cast<mp_limb_t*>(signed_size == 0 ? &kLimbOfZero : limbs), signed_size) {}
+  explicit IntegerView(Int128 value) : IntegerView(nullptr, 0) {
+    static_assert(GMP_NUMB_BITS == 64);
+    const Unsigned128 size = magnitude(value);
+    own_ = {static_cast<mp_limb_t>(size), static_cast<mp_limb_t>(size >> 64U)};
+    if (size == 0) return;
+    const int limbs = own_[1] != 0 ? 2 : 1;
+    value_->_mp_d = own_.data();
+    value_->_mp_size = value < 0 ? -limbs : limbs;
+  }
+  IntegerView(const IntegerView& other) : own_(other.own_), value_{*other.value_} {
+    if (other.value_->_mp_d == other.own_.data()) value_->_mp_d = own_.data();
+  }
+  IntegerView& operator=(const IntegerView&) = delete;
+  ~IntegerView() = default;
+
   operator mpz_srcptr() const { return value_; }  // NOLINT(google-explicit-constructor): a view of an mpz is one
   [[nodiscard]] int sign() const { return mpz_sgn(value_); }
 
  private:
   static constexpr mp_limb_t kLimbOfZero = 0;
+  std::array<mp_limb_t, 2> own_{};  // those of an integer of no table
   mpz_t value_;
 };
 
@@ -85,28 +102,6 @@ class IntegerRows {
     return read_small(sizes_.data() + kPadding + row * width_, limb, out);
   }
 
-  /// The same for whole rows, one after another, of a table that does not change meanwhile: where a row begins need not
-  /// be found if it follows the last one.
-  class SmallReader {
-   public:
-    explicit SmallReader(const IntegerRows& rows) : rows_(rows) {}
-
-    /// `out` has room for the whole row.
-    [[nodiscard]] bool read(std::uint32_t row, std::span<std::int64_t> out) {
-      if (rows_.is_wide_) return false;
-      if (row != next_ || limb_ == nullptr) limb_ = rows_.limbs_.data() + rows_.begin(row);
-      next_ = row + 1;
-      if (read_small(rows_.sizes_.data() + kPadding + row * rows_.width_, limb_, out)) return true;
-      limb_ = nullptr;
-      return false;
-    }
-
-   private:
-    const IntegerRows& rows_;
-    std::uint32_t next_ = 0;
-    const mp_limb_t* limb_ = nullptr;
-  };
-
   [[nodiscard]] int sign(std::uint32_t row, std::size_t column) const {
     const std::int32_t size = this->size(row * width_ + column);
     return (size > 0) - (size < 0);
@@ -127,6 +122,8 @@ class IntegerRows {
 
   /// Order-independent of the tables: equal rows hash equally.
   [[nodiscard]] std::uint64_t hash(std::uint32_t row) const;
+  /// What that is, or would be, of a row of at most eight such integers.
+  [[nodiscard]] static std::uint64_t hash_of(std::span<const std::int64_t> row);
 
   /// Takes the last row off again.
   void pop();

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
-#include "nef/number/integer_rows.h"
-
 namespace nef {
 
-/// Finds rows of a table of integers by what they hold: a hash table with open addressing, at most half full, beside
-/// the rows, which are passed in. Several threads may look rows up at once while nothing is added.
+/// Finds rows of a table (with hash and equal as IntegerRows has them) by what they hold: a hash table with open
+/// addressing, at most half full, beside the rows, which are passed in. Several threads may look rows up at once while
+/// nothing is added.
 class RowSlots {
  public:
   struct Slot {
@@ -20,7 +21,8 @@ class RowSlots {
     [[nodiscard]] bool empty() const { return row == kEmpty; }
   };
 
-  static std::uint32_t hash_of(const IntegerRows& rows, std::uint32_t row) {
+  template <typename Rows>
+  static std::uint32_t hash_of(const Rows& rows, std::uint32_t row) {
     const std::uint64_t hash = rows.hash(row);
     return static_cast<std::uint32_t>(hash ^ hash >> 32U);
   }
@@ -52,7 +54,8 @@ class RowSlots {
   void prefetch(std::uint32_t hash) const { __builtin_prefetch(&slots_[hash & (slots_.size() - 1)]); }
 
   /// The slot of the row of `rows` that equals a row of `other`, or the empty one where it belongs.
-  [[nodiscard]] const Slot& find(const IntegerRows& rows, std::uint32_t hash, const IntegerRows& other,
+  template <typename Rows>
+  [[nodiscard]] const Slot& find(const Rows& rows, std::uint32_t hash, const Rows& other,
                                  std::uint32_t other_row) const {
     const std::size_t mask = slots_.size() - 1;
     std::size_t at = hash & mask;
@@ -61,8 +64,8 @@ class RowSlots {
     }
     return slots_[at];
   }
-  [[nodiscard]] Slot& find(const IntegerRows& rows, std::uint32_t hash, const IntegerRows& other,
-                           std::uint32_t other_row) {
+  template <typename Rows>
+  [[nodiscard]] Slot& find(const Rows& rows, std::uint32_t hash, const Rows& other, std::uint32_t other_row) {
     return const_cast<Slot&>(std::as_const(*this).find(rows, hash, other, other_row));
   }
 

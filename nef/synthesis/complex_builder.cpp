@@ -279,7 +279,7 @@ void ComplexBuilder::drop_idle_box(LabelId& outer) {
   if (!has_idle_box()) return;
   const Complex& c = complex_;
   ComplexBuilder kept(planes_, monitor_);
-  kept.reserve(c.vertex_count(), c.vertices.back(), c.points.limbs_per_point());
+  kept.reserve(c.vertex_count(), c.vertices.back(), c.points.limbs());
   const VertexId end{c.vertex_count()};
   VertexId first{0};  // of the run of finite vertices
   for (VertexId v{0}; v <= end; ++v) {

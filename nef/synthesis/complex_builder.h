@@ -31,8 +31,9 @@ class ComplexBuilder {
   ComplexBuilder(const ComplexBuilder&) = delete;
   ComplexBuilder& operator=(const ComplexBuilder&) = delete;
 
-  /// Makes room for this many vertices with this many sphere items altogether; `limbs` are those of a point.
-  void reserve(std::size_t vertices, const VertexRecord& items, std::size_t limbs = 4);
+  /// Makes room for this many vertices with this many sphere items altogether; `limbs` as in
+  /// PointTable::reserve.
+  void reserve(std::size_t vertices, const VertexRecord& items, std::size_t limbs = 0);
 
   /// Sorts the drawing around its nodes, simplifies it, and adds it as a vertex at the point, unless a point with this
   /// sphere map lies inside a volume, facet or edge. True if it is a vertex.

@@ -179,6 +179,9 @@ class Plan:
     - degrees: the same as floats, if it turns about an axis; else None
     - samples, slices, boxes: of a robot that turns freely: how many random poses, exact free spaces and, for a proof that
       there is no path, boxes of poses the search took; else None
+    - boxes_in_question, reference_in_question: of a robot that turns freely, if that is undecided: boxes, each as its low
+      and high corner, in which a proof that there is no path may have a hole, and the point of the robot whose positions
+      they are about; else an empty list and None
     - open_ranges: undecided: the ranges of degrees in question
     - unrounded: numbers of way-points between the ends with more decimals than `digits`
     - length: of the path, a float; None for a robot that turns
@@ -199,6 +202,8 @@ class Plan:
         self.samples = answer.get("samples")
         self.slices = answer.get("slices")
         self.boxes = answer.get("boxes")
+        self.boxes_in_question = [tuple(map(tuple, box)) for box in answer.get("boxes_in_question", [])]
+        self.reference_in_question = answer.get("reference_in_question") if self.boxes_in_question else None
         self.open_ranges = answer.get("open_ranges", [])
         self.unrounded = answer.get("unrounded", [])
         self.length = answer.get("length")
@@ -549,14 +554,15 @@ def _pose(pose):
                          "check() takes positions alone") from None
 
 
-def read(path: Any, *, crossings: str = "union", close: float = 0) -> Scene:
+def read(path: Any, *, crossings: str = "union", close: float = 0, turn_freely: bool = False) -> Scene:
     """The scene of a file: JSON, or an OMPL.app problem (.cfg). Changes to its meshes are reported as warnings.
 
     crossings, close: how its meshes are read, as in nef.from_mesh. A mesh that does not bound a solid is interpreted,
     perhaps as a surface; with crossings="refuse" it is an InputError.
+    turn_freely: the robot of an OMPL.app problem turns about all axes, as in OMPL.app, whatever its start and goal.
     """
     scene = Scene.__new__(Scene)
-    scene._scene = _planner.read(os.fspath(path), crossings, close)
+    scene._scene = _planner.read(os.fspath(path), crossings, close, bool(turn_freely))
     scene._space = None
     for message in scene.messages:
         warnings.warn(message, InputWarning, stacklevel=2)

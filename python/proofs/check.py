@@ -24,8 +24,10 @@ import argparse
 import collections
 import functools
 import hashlib
+import itertools
 import json
 import math
+import operator
 import re
 import sys
 from fractions import Fraction
@@ -61,13 +63,19 @@ def items(value, count=None):
     return value
 
 
+@functools.lru_cache(maxsize=1 << 16)  # a proof has the same coordinates again and again
+def fraction_of(text):
+    well_formed = re.fullmatch("-?[0-9]+(/[1-9][0-9]*)?", text)
+    fraction = Fraction(text) if well_formed else None
+    require(well_formed and str(fraction) == text, f"numbers are strings such as '1/3', not {text!r}")
+    return fraction.numerator if fraction.denominator == 1 else fraction
+
+
 def number(value):
     """Each number has one spelling, a fraction in lowest terms, so that equal claims have equal digests. Integers are of
     type int, which is faster; so whoever divides makes a Fraction first."""
-    well_formed = isinstance(value, str) and re.fullmatch("-?[0-9]+(/[1-9][0-9]*)?", value)
-    fraction = Fraction(value) if well_formed else None
-    require(well_formed and str(fraction) == value, f"numbers are strings such as '1/3', not {value!r}")
-    return fraction.numerator if fraction.denominator == 1 else fraction
+    require(isinstance(value, str), f"numbers are strings such as '1/3', not {value!r}")
+    return fraction_of(value)
 
 
 def numbers(value, count=None):
@@ -97,7 +105,7 @@ def sign(x):
 
 
 def dot(a, b):
-    return sum(x * y for x, y in zip(a, b))
+    return sum(map(operator.mul, a, b))
 
 
 def minus(a, b):
@@ -119,7 +127,7 @@ def axes(dimension):
 def whole(*rows):
     """Vectors times the least positive number that makes all their components integers."""
     scale = math.lcm(*(x.denominator for row in rows for x in row))
-    return [[int(x * scale) for x in row] for row in rows]
+    return [[x.numerator * (scale // x.denominator) for x in row] for row in rows]
 
 
 def shortest(v):
@@ -145,23 +153,40 @@ def rotation_form(q):
 
 
 def mixtures(chart, low, high):
-    """Every rotation of a part of a chart is a mixture of these matrices. A chart is a set of quaternions,
-    origin + sum t_k directions[k]; in the part each t_k is from low[k] to high[k]. They are the Bernstein coefficients of the
-    quadratic form, divided by those of the square: at the ends and in the middle of each parameter, less the form of half of the edge for
-    each middle. Each is four rows of integers: three of the matrix, and its positive divisor."""
-    origin, directions = chart
+    """A chart is a set of quaternions, origin + sum t_k directions[k]; in a part of it each t_k is from low[k] to high[k]. The
+    Bernstein coefficients of the rotation matrix times the square of the quaternion, and of this square: at the ends and in the
+    middle of each parameter, less the form of half of the edge for each middle. Each is four rows, as of rotation_form. All are
+    multiplied by the same number, so that they are integers. Every rotation of the part is a mixture of these matrices, each
+    divided by its square."""
+    low, high, [unit] = whole(low, high, [1])
+    origin, *directions = whole(chart[0], *chart[1])
+    origin = [2 * unit * x for x in origin]
+    edges = [rotation_form([(b - a) * x for x in d]) for a, b, d in zip(low, high, directions)]
     result = []
-    for number_of_mixture in range(3 ** len(directions)):
-        ends = [number_of_mixture // 3 ** k % 3 for k in range(len(directions))]
-        at = [Fraction((2 - end) * low[k] + end * high[k]) / 2 for k, end in enumerate(ends)]
-        rows = rotation_form([x + sum(t * d[i] for t, d in zip(at, directions)) for i, x in enumerate(origin)])
-        for k, end in enumerate(ends):
+    for ends in itertools.product(range(3), repeat=len(directions)):
+        ends = ends[::-1]
+        at = [(2 - end) * a + end * b for end, a, b in zip(ends, low, high)]
+        rows = rotation_form([x + dot(at, column) for x, *column in zip(origin, *directions)])
+        for end, edge in zip(ends, edges):
             if end == 1:
-                edge = rotation_form([x * Fraction(high[k] - low[k]) / 2 for x in directions[k]])
                 rows = [minus(row, less) for row, less in zip(rows, edge)]
         require(rows[3][0] > 0, "a part has too many orientations")
-        result.append(whole(*rows))
+        result.append(rows)
     return result
+
+
+def raised(coefficients, axis):
+    """Bernstein coefficients of a polynomial of degree 2 in each of three parameters become those of its product with the parameter
+    `axis`, which goes from -1 to 1, or with 1 if `axis` is 3; each is multiplied by 3 for each index that is 1 or 2."""
+    for k in range(3):
+        low = -1 if k == axis else 1
+        inner = 4 ** k
+        blocks = [[coefficients[i + inner * (3 * outer + at)] for i in range(inner)] for outer in range(3 ** (2 - k))
+                  for at in range(3)]
+        coefficients = [x for f0, f1, f2 in zip(*(blocks[at::3] for at in range(3)))
+                        for part in ([low * a for a in f0], [a + 2 * low * b for a, b in zip(f0, f1)],
+                                     [2 * b + low * c for b, c in zip(f1, f2)], f2) for x in part]
+    return coefficients
 
 
 def arc(p, q):
@@ -198,6 +223,11 @@ def outward_normals(vectors):
     return found
 
 
+def ranges(points):
+    """The least and the largest of each coordinate."""
+    return [(min(values), max(values)) for values in zip(*points)]
+
+
 class Piece:
     """The hull of its vertices."""
 
@@ -220,6 +250,25 @@ class Piece:
         cones = ((a, outward_normals([minus(v, a) for v in self.vertices if v != a])) for a in self.vertices)
         return list({normal: Fraction(dot(normal, a)) for a, normals in cones for normal in normals}.items())
 
+    @functools.cached_property
+    def whole_vertices(self):
+        """Its vertices times a positive integer, and this number."""
+        *vertices, [unit] = whole(*self.vertices, [1])
+        return vertices, unit
+
+    @functools.cached_property
+    def ranges(self):
+        return ranges(self.whole_vertices[0])
+
+    def require_inside(self, points, drift):
+        """It contains some points, also if they move by any part of each drift, back or forth."""
+        *rows, [scale] = whole(*points, *drift, [1])
+        points, drift = rows[:len(points)], rows[len(points):]
+        for normal, c in self.faces:
+            most = scale * c.numerator - c.denominator * sum(abs(dot(normal, way)) for way in drift)
+            require(all(dot(normal, point) * c.denominator <= most for point in points),
+                    "a point of both pieces is not in the obstacle")
+
 
 def pieces(value):
     return [Piece(piece) for piece in items(value)]
@@ -229,10 +278,11 @@ def common_point(first, of_first, second, of_second, inside):
     """A point of two hulls, given as a weighted sum of the vertices of each; without zeros it is inside both."""
     points = []
     for vertices, given in ((first, of_first), (second, of_second)):
-        weights = numbers(given, len(vertices))
-        require(all(w > 0 if inside else w >= 0 for w in weights) and sum(weights) == 1,
+        weights, [unit] = whole(numbers(given, len(vertices)), [1])
+        require(all(w > 0 if inside else w >= 0 for w in weights) and sum(weights) == unit,
                 "weights must be positive and add up to 1")
-        points.append([dot(weights, coordinates) for coordinates in zip(*vertices)])
+        *vertices, [scale] = whole(*vertices, [1])
+        points.append([Fraction(dot(weights, coordinates), unit * scale) for coordinates in zip(*vertices)])
     require(points[0] == points[1], "two pieces have not the point in common")
     return points[0]
 
@@ -337,32 +387,42 @@ class PathClaim:
 
 # Free and blocked paths.
 
-AXES = [[way * x for x in axis] for axis in axes(3) for way in (1, -1)]
+def are_apart(a, unit_a, b, unit_b, may_touch, normal):
+    """Whether some points, given times a number, are below a plane, given by its normal, and others above it."""
+    top, bottom = max(dot(normal, v) for v in a) * unit_b, min(dot(normal, v) for v in b) * unit_a
+    return any(normal) and (top < bottom or may_touch and top == bottom)
 
 
-def are_apart(a, b, may_touch, planes):
-    """Whether one of the planes, given by their normals, has a below it and b above it."""
-    for normal in planes:
-        top, bottom = max(dot(normal, v) for v in a), min(dot(normal, v) for v in b)
-        if any(normal) and (top < bottom or may_touch and top == bottom):
-            return True
-    return False
+def are_boxes_apart(a, unit_a, b, unit_b, may_touch):
+    """The same for the planes along two axes, of boxes around the points (ranges)."""
+    gaps = (x - y for (low, high), (other_low, other_high) in zip(a, b)
+            for x, y in ((low * unit_b, other_high * unit_a), (other_low * unit_a, high * unit_b)))
+    return any(gap > 0 or may_touch and gap == 0 for gap in gaps)
 
 
 def check_part(claim, motion, start, end, given):
     """Every pair of pieces is apart from parameter start to end: enclosed by the images of each vertex by the mixtures of the
-    rotations, at both ends of an interval that has the positions."""
+    rotations, at both ends of an interval that has the positions. A plane along two axes separates them, or the one that is
+    given."""
     planes = {}
     for plane in items(given):
         i, j, normal = fields(plane, "robot", "obstacle", "normal")
-        planes[claim.pair(i, j)] = numbers(normal, 3)
+        [planes[claim.pair(i, j)]] = whole(numbers(normal, 3))
     turns = mixtures(arc(motion.quaternion(start), motion.quaternion(end)), [-1], [1])
-    positions = [motion.position(motion.times(start)[0]), motion.position(motion.times(end)[1])]
+    *positions, [scale] = whole(motion.position(motion.times(start)[0]), motion.position(motion.times(end)[1]), [1])
+    divisor = math.lcm(*(square for *_, [square] in turns))
     for i, piece in enumerate(claim.robot):
-        swept = [placed(turn, vertex, position) for vertex in piece.vertices for turn in turns for position in positions]
+        vertices, unit = piece.whole_vertices
+        turned = [[dot(row, vertex) * (divisor // square) * scale for row in rows] for vertex in vertices
+                  for *rows, [square] in turns]
+        swept = [[x + divisor * unit * at for x, at in zip(vertex, position)] for vertex in turned for position in positions]
+        unit *= divisor * scale
+        ends = ranges(swept)
         for j, obstacle in enumerate(claim.obstacles):
-            normals = AXES + [planes[piece, obstacle]] if (piece, obstacle) in planes else AXES
-            require(are_apart(swept, obstacle.vertices, claim.may_touch(piece, obstacle), normals),
+            others, other_unit = obstacle.whole_vertices
+            may_touch = claim.may_touch(piece, obstacle)
+            require(are_boxes_apart(ends, unit, obstacle.ranges, other_unit, may_touch) or (piece, obstacle) in planes and
+                    are_apart(swept, unit, others, other_unit, may_touch, planes[piece, obstacle]),
                     f"nothing separates pieces {i} and {j}")
 
 
@@ -397,25 +457,37 @@ def check_blocked_path(claim, witness):
 # Barriers of triangles, which are cycles modulo 2. What they separate is told by rays.
 
 def simplex(claim, points, count, given, require_blocked):
-    """The corners of a triangle or tetrahedron, no position on which is free: it lies beyond a side of the box, or two pieces
-    overlap at its corners, and so on all of it."""
+    """The places in `points` of the corners of a triangle or tetrahedron, no position on which is free: it lies beyond a side of
+    the box, or two pieces overlap at its corners, and so on all of it."""
     overlap = has_key(given, "robot")
     places, *pair = fields(given, "corners", *(("robot", "obstacle", "common") if overlap else ()))
-    corners = [points[index(place, len(points))] for place in items(places, count)]
+    places = tuple(index(place, len(points)) for place in items(places, count))
+    corners = [points[place] for place in places]
     if overlap:
         require_blocked(corners, *pair)
     require(overlap or claim.beyond_a_side(corners), "a position on a barrier may be free")
-    return corners
+    return places
+
+
+def in_integers(points, claim, *simplices):
+    """Start and goal, and lists of simplices with the positions of their corners, all times the same number."""
+    *at, start, goal = map(tuple, whole(*points, *(position for position, _ in claim.poses)))
+    return (start, goal), *([tuple(at[place] for place in places) for places in some] for some in simplices)
+
+
+@functools.lru_cache(maxsize=1 << 16)  # neighbours have their edges in common
+def line_through(a, b):
+    along = unit(minus(b, a))
+    return along, *cross(a, along)
 
 
 def edge_ends(corners):
     """The ends of a triangle's edges, each with the line of its edge. If these cancel out modulo 2 over some triangles, so do
     the edges as sets of points, however they are cut."""
     for a, b in zip(corners, corners[1:] + corners[:1]):
-        along = unit(minus(b, a))
-        line = along, *cross(a, along)
-        yield line, *a
-        yield line, *b
+        line = line_through(*sorted((a, b)))
+        yield line, a
+        yield line, b
 
 
 def cancel_out(ends):
@@ -458,9 +530,10 @@ def check_no_translation(claim, witness):
         for corner, point in zip(corners, items(common, 3)):
             claim.require_collision(piece, corner, obstacle, point)
 
-    barrier = [simplex(claim, points, 3, triangle, require_blocked) for triangle in items(triangles)]
+    places = [simplex(claim, points, 3, triangle, require_blocked) for triangle in items(triangles)]
+    ends, barrier = in_integers(points, claim, places)
     require(have_no_border(barrier), "an edge is one of an odd number of triangles")
-    sides = [crosses_odd(barrier, position) for position, _ in claim.poses]
+    sides = [crosses_odd(barrier, end) for end in ends]
     require(sides[0] != sides[1], "start and goal are on the same side of the barrier")
     return f"infeasible: {len(barrier)} triangles separate start and goal"
 
@@ -473,29 +546,60 @@ class Blocking:
 
     def __init__(self, claim, charts, reference):
         self.claim, self.charts, self.reference = claim, charts, reference
-        self.inner_pieces = {}
+        self.seen_faces, self.inner_pieces, self.forms = {}, {}, {}
+
+    def seen(self, piece):
+        """The faces of a piece of the robot, seen from the reference point: n x <= c / unit, as (n, c, unit), all integers."""
+        if piece not in self.seen_faces:
+            seen = ((normal, Fraction(c - dot(normal, self.reference))) for normal, c in piece.faces)
+            self.seen_faces[piece] = [(normal, c.numerator, c.denominator) for normal, c in seen]
+        return self.seen_faces[piece]
 
     def inner_piece(self, chart, low, high, piece):
         """Half-spaces n x < c of integers, as (*n, c), whose points are inside the piece at all of the orientations."""
         key = chart, *low, *high, piece
         if key not in self.inner_pieces:
-            seen = [(normal, c - dot(normal, self.reference)) for normal, c in piece.faces]
-            self.inner_pieces[key] = [(*(dot(row, normal) * c.denominator for row in m[:3]), c.numerator * m[3][0])
-                                      for m in mixtures(self.charts[chart], low, high) for normal, c in seen]
+            self.inner_pieces[key] = [(*(dot(row, normal) * unit for row in m[:3]), c * m[3][0])
+                                      for m in mixtures(self.charts[chart], low, high) for normal, c, unit in self.seen(piece)]
         return self.inner_pieces[key]
+
+    def forms_of(self, chart, low, high):
+        """The mixtures, and the cubic form of their square."""
+        key = chart, *low, *high
+        if key not in self.forms:
+            turns = mixtures(self.charts[chart], low, high)
+            self.forms[key] = turns, raised([m[3][0] for m in turns], 3)
+        return self.forms[key]
 
     def check(self, chart, low, high, positions, i, j, common):
         """Each position has a point of the obstacle that is inside the inner piece there. Both are convex, so each position
         between them has one."""
         piece, obstacle = self.claim.pair(i, j)
         inner = self.inner_piece(chart, low, high, piece)
-        for position, point in zip(positions, items(common, len(positions))):
-            point = numbers(point, 3)
-            require(all(dot(n, point) <= c for n, c in obstacle.faces), "a point of both pieces is not in the obstacle")
-            seen = minus(point, position)
-            scale = math.lcm(*(x.denominator for x in seen))
-            x, y, z = (int(x * scale) for x in seen)
+        points = [numbers(point, 3) for point in items(common, len(positions))]
+        obstacle.require_inside(points, [])
+        for position, point in zip(positions, points):
+            [x, y, z], [scale] = whole(minus(point, position), [1])
             require(all(a * x + b * y + c * z < most * scale for a, b, c, most in inner),
+                    "a point of both pieces is not inside the robot")
+
+    def check_drifting(self, chart, low, high, positions, i, j, common, drift):
+        """The same for points that drift: by so much while a parameter goes from the middle of its range to the upper end. For each
+        face of the robot, R n (point + drifts - position) - c times the square of the quaternion is a polynomial of degree 3 in each
+        parameter; its Bernstein coefficients are below zero."""
+        piece, obstacle = self.claim.pair(i, j)
+        drift = [numbers(way, 3) for way in items(drift, 3)]
+        points = [numbers(point, 3) for point in items(common, len(positions))]
+        obstacle.require_inside(points, drift)
+        *seen, [scale] = whole(*map(minus, points, positions), *drift, [1])
+        seen, drift = seen[:-3], seen[-3:]
+        turns, squares = self.forms_of(chart, low, high)
+        for normal, c, unit in self.seen(piece):
+            turned = [[dot(row, normal) * unit for row in m[:3]] for m in turns]
+            along = [raised([dot(n, way) for n in turned], k) for k, way in enumerate(drift)]
+            moves = [sum(coefficients) for coefficients in zip(*along, [-c * scale * square for square in squares])]
+            still = [raised(component, 3) for component in zip(*turned)]
+            require(all(a * x + b * y + c * z + move < 0 for x, y, z in seen for a, b, c, move in zip(*still, moves)),
                     "a point of both pieces is not inside the robot")
 
 
@@ -552,7 +656,11 @@ class PoseBoxes:
             self.check_beyond(chart, low, high, index(fields(cell, "beyond")[0], 6))
         else:
             corners = [[(high if corner >> k & 1 else low)[k] for k in range(3)] for corner in range(8)]
-            self.blocking.check(chart, low[3:], high[3:], corners, *fields(cell, "robot", "obstacle", "common"))
+            part = chart, low[3:], high[3:], corners
+            if has_key(cell, "drift"):
+                self.blocking.check_drifting(*part, *fields(cell, "robot", "obstacle", "common", "drift"))
+            else:
+                self.blocking.check(*part, *fields(cell, "robot", "obstacle", "common"))
         return None
 
     def check_beyond(self, chart, low, high, side):
@@ -615,6 +723,7 @@ def check_boxes(claim, cells):
 # Layers of orientations, along a chain of arcs. In each, triangles of positions are blocked; where one layer follows on
 # another one, tetrahedra fill what is between their triangles.
 
+@functools.lru_cache(maxsize=1 << 16)  # triangles of a layer are compared with the layers before and behind it
 def plane_ends(corners):
     """The ends of a triangle's edges, each with the line of its edge and the plane of the triangle. If these cancel out, so do the
     triangles as sets of points."""
@@ -641,6 +750,8 @@ def check_layers(claim, chain, places, layers):
             blocked = functools.partial(blocking.check, chart, [high], [high])
             closings.append([simplex(claim, points, 4, solid, blocked) for solid in items(closing)])
     firsts.append(len(barriers) - 1)  # the last quaternion is in the last layer
+    ends, *simplices = in_integers(points, claim, *barriers, *closings)
+    barriers, closings = simplices[:len(barriers)], simplices[len(barriers):]
 
     for barrier, following, closing in zip(barriers, barriers[1:] + barriers[:1], closings):
         require(have_no_border(barrier), "the triangles of a layer have a border")
@@ -652,11 +763,11 @@ def check_layers(claim, chain, places, layers):
     if places is not None:
         places = [index(place, len(quaternions)) for place in items(places, 2)]
     inside = []
-    for end, (position, q) in enumerate(claim.poses):
+    for end, (_, q) in enumerate(claim.poses):
         require(unit(q) in orientations, "the quaternion of a pose is not in the chain")
         place = orientations.index(unit(q)) if places is None else places[end]
         require(orientations[place] == unit(q), "the quaternion of a pose is not at its place in the chain")
-        inside.append(crosses_odd(barriers[firsts[place]], position))
+        inside.append(crosses_odd(barriers[firsts[place]], ends[end]))
     require(inside[0] != inside[1], "start and goal are on the same side of the barrier")
     return f"infeasible: a barrier in {len(barriers)} layers of orientations separates start and goal"
 

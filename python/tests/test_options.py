@@ -123,6 +123,7 @@ PROGRAMS = {
         "--output": "way-points are numbers in Python",
         "--page": "nef.show shows sets; pages in which a robot moves are the program's",
         "--tight": "nef.planner.Scene.passages()",
+        "--turn-freely": "nef.planner.read(turn_freely)",
         "--path": "nef.planner.Scene.certify(path)",
         "--queries": "call nef.planner.Scene.plan for each; free space is computed once",
         "--start": "nef.planner.Scene.plan(start)",

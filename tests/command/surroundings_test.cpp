@@ -26,6 +26,18 @@ std::size_t lines_of(const std::string& text) {
 
 }  // namespace
 
+// apps/program/allocator/jemalloc_options.cpp
+TEST_CASE("the program asks for large pages where it has jemalloc") {
+  const Workplace here;
+  const Outcome outcome = limited(here, "MALLOC_CONF=confirm_conf:true", "--version");
+  CHECK(outcome.code == 0);
+#ifdef NEF_WITH_JEMALLOC
+  CHECK_THAT(outcome.err, Contains("-- Set conf value: thp:always"));
+#else
+  CHECK(outcome.err.empty());
+#endif
+}
+
 TEST_CASE("pipes and devices are refused wherever a file is named") {
   const Workplace here;
   REQUIRE(mkfifo((here / "pipe.off").c_str(), 0600) == 0);

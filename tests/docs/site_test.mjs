@@ -70,8 +70,10 @@ try {
         await browser.prefer("prefers-color-scheme", scheme);
         await browser.evaluate("localStorage.clear(); document.body.dataset.mdColorScheme = \"old\"");
         await browser.send("Page.reload");
-        await browser.until(`document.body.dataset.mdColorScheme === "${scheme === "dark" ? "slate" : "default"}"`, 20);
-        await browser.until("document.getAnimations().length === 0", 20);  // colours that change slowly
+        // All of it: a page that is left while its scripts fetch their index reports an error.
+        await browser.until(`document.body.dataset.mdColorScheme === "${scheme === "dark" ? "slate" : "default"}"
+          && document.readyState === "complete"`);
+        await browser.until("document.getAnimations().length === 0");  // colours that change slowly
         assert.ok(await browser.evaluate("document.documentElement.scrollWidth") <= width, `${where}: wider than the window`);
         const [contrast, element] = await browser.evaluate(CONTRAST);
         assert.ok(contrast >= 4, `${where}: a contrast of ${contrast} only: ${element}`);
@@ -86,7 +88,13 @@ try {
   await browser.open(`${root}/index.html`, 1280, 800, "document.readyState === 'complete'");
   await browser.evaluate("document.querySelector('.md-search__input').focus()");
   for (const letter of "lids") await browser.key(letter);
-  await browser.until("document.querySelectorAll('.md-search-result__link').length > 0", 60);
+  // Letters that come before the scripts of the search listen are not lost on a visitor, who goes on typing.
+  await browser.until(`(() => {
+    const input = document.querySelector('.md-search__input');
+    input.dispatchEvent(new Event('focus'));
+    input.dispatchEvent(new KeyboardEvent('keyup', { bubbles: true }));
+    return document.querySelectorAll('.md-search-result__link').length > 0;
+  })()`);
   const found = await browser.evaluate("[...document.querySelectorAll('.md-search-result__link')].map((link) => link.pathname)");
   assert.ok(found.includes("/meshes.html"), `the search for "lids" found ${found}`);
   writeFileSync(join(pictures, "search.png"), await browser.screenshot());

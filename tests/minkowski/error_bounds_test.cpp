@@ -136,7 +136,7 @@ TEST_CASE("sides of convolution facets: slack holds where the error is worst", "
       const Triangle t = triangle_of(g, 0, 12);
       if (is_flat(t)) return 0.0;
       const ConvolutionFacets facets = facets_of({&t, 1});
-      const RoundedFacets around(facets);
+      const RoundedFacets around(facets, {});
       const Double3 x = rounded(point_of_genes(g, 9, 12));
       if (largest_of({x}) > around.extent()) return 0.0;
       double result = 0;
@@ -174,7 +174,7 @@ TEST_CASE("segments of convolution facets: ends are within their error where it 
       const std::array<Triangle, 2> t = {triangle_of(g, 0, 18), triangle_of(g, 9, 18)};
       if (is_flat(t[0]) || is_flat(t[1])) return 0.0;
       const ConvolutionFacets facets = facets_of(t);
-      const RoundedFacets around(facets);
+      const RoundedFacets around(facets, {});
       const std::optional<FacetSegment> s = SegmentFinder(facets, around, {}).find(0, 1);
       if (!s) return 0.0;
       double result = 0;

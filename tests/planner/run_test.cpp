@@ -51,20 +51,56 @@ TEST_CASE("exit codes and the JSON report") {
   CHECK(planner(folder, scene("s1_tight_hole") + " --contact forbid").code == 1);
 }
 
+TEST_CASE("where nothing is in the way, a path with clearance goes straight, too") {
+  const Folder folder;
+  const std::string nothing = folder.write("nothing.json", R"J({"robot": "box(0,0,0, 1,1,1)", "obstacles": [],
+      "start": [-2, 0, 0], "goal": [2, 0, 0]})J");
+  for (const char* options : {"", " --clearance", " --quick --clearance"}) {
+    const Run run = planner(folder, nothing + options);
+    CHECK(run.code == 0);
+    CHECK_THAT(run.out, Catch::Contains("length 4,"));
+  }
+}
+
 TEST_CASE("when --time is up, a question about translations is undecided") {
   const Folder folder;
-  // A shape of many facets among others: sums of some seconds.
-  const std::string slow = folder.write("slow.json", R"J({"robot": "ball(1/3, 9)", "obstacles": ["ball(2, 20)"],
-      "start": [5,0,0], "goal": [-5,0,0]})J");
-  const Run late = planner(folder, slow + " --time 0.001 --json");
+  // Read in a fraction of the time, also where other tests run; the sum takes several times as long.
+  const std::string slow = folder.write("slow.json", R"J({"robot": "ball(1/3, 60) - box(0,0,0, 1,1,1)",
+      "obstacles": ["ball(2, 60) - box(0,0,0, 3,3,3)"], "start": [5,0,0], "goal": [-5,0,0]})J");
+  const Run late = planner(folder, slow + " --time 4 --json");
   CHECK(late.code == 5);
   const auto report = nlohmann::json::parse(late.out);
   CHECK(report["status"] == "undecided");
   CHECK(report["motions"] == "translation");
   nef::test::check_report_shape(report, "plan");
-  CHECK(planner(folder, slow + " --time 0.001").out.find("undecided: the time limit (--time) was reached") == 0);
+  CHECK(planner(folder, slow + " --time 4").out.find("undecided: the time limit (--time) was reached\n") == 0);
   CHECK(planner(folder, scene("s1_tight_hole") + " --time 1000").code == 0);
   CHECK(planner(folder, scene("s1_narrower") + " --time 1000").code == 1);
+}
+
+TEST_CASE("the time limit includes reading, whatever is asked") {
+  const Folder folder;
+  const std::string heavy = "sphere(2, 300)";  // takes longer than the time
+  const std::string ends = R"J(, "start": {"position": [5,0,0], "quaternion": [1,0,0,0]},
+      "goal": {"position": [-5,0,0], "quaternion": [1,0,0,0]}})J";
+  const std::string shapes = R"J({"robot": "box(0,0,0, 1,1,1)", "obstacles": [")J" + heavy + R"J("])J";
+  const std::vector<std::pair<std::string, std::string>> asked = {
+      {"plan", folder.write("plan.json", shapes + R"J(, "start": [5,0,0], "goal": [-5,0,0]})J")},
+      {"plan", folder.write("rigid.json", shapes + R"J(, "rotation": "SO(3)")J" + ends)},
+      {"assembly", "--assembly " + folder.write("parts.json", R"J({"parts": {"a": ")J" + heavy +
+                                                                  R"J(", "b": "box(3,0,0, 4,1,1)"}})J")},
+      {"range", "--range " + folder.write("hinge.json", R"J({"moving": "box(0,0,0, 1,1,1)", "fixed": [")J" + heavy +
+                                                            R"J("], "joint": {"type": "hinge", "axis": "z",
+                                                            "range": [0, 90]}})J")}};
+  for (const auto& [command, arguments] : asked) {
+    CAPTURE(arguments);
+    const Run late = planner(folder, arguments + " --time 0.01");
+    CHECK(late.code == 5);
+    CHECK(late.out == "undecided: the time limit (--time) was reached before the search began\n");
+    const auto report = nlohmann::json::parse(planner(folder, arguments + " --time 0.01 --json").out);
+    CHECK(report["status"] == "undecided");
+    nef::test::check_report_shape(report, command);
+  }
 }
 
 TEST_CASE("an end that is not free is told before any free space is made") {

@@ -535,7 +535,8 @@ const tests = {
     const ompl = (name) => browser.evaluate(`(() => { const list = document.querySelector("#planner-ompl"); list.value = "${name}"; list.dispatchEvent(new Event("change")); })()`);
     const omplFinds = async () => {
       await ompl("RRTConnect");
-      await browser.until(`/^a path, [0-9]+ way-points/.test(${measure("planner-measures", "RRTConnect")} ?? "")`);
+      // It draws poses at random, and has a minute for them.
+      await browser.until(`/^a path, [0-9]+ way-points/.test(${measure("planner-measures", "RRTConnect")} ?? "")`, 90);
       assert.ok(await browser.evaluate('nefViewer.page.layers.some(({ name }) => name === "path of RRTConnect")'));
       await ompl("");
       await browser.until(`${measure("planner-measures", "RRTConnect")} === undefined`);

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Rows are words of bits. A sum unites copies of one grid, moved by the cells of the other one: runs of cells along x
+// and equal runs in layers upon each other are one copy, stretched by doubling.
 #include "apps/minkowski/cells/bit_grid.h"
 
 #include <algorithm>
+
+#include "nef/base/error.h"
 
 namespace nef::minkowski {
 namespace {
@@ -140,6 +145,11 @@ BitGrid cells_inside(const BitGrid& border, std::vector<std::vector<double>> cro
     }
   }
   return inside;
+}
+
+void BitGrid::unite(const BitGrid& other) {
+  NEF_ASSERT(size_ == other.size_);
+  for (std::size_t i = 0; i < bits_.size(); ++i) bits_[i] |= other.bits_[i];
 }
 
 bool BitGrid::row_is_empty(std::uint32_t y, std::uint32_t z) const {

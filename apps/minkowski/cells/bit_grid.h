@@ -24,6 +24,9 @@ class BitGrid {
   }
   void set(std::uint32_t x, std::uint32_t y, std::uint32_t z) { row(y, z)[x / 64] |= std::uint64_t{1} << (x % 64); }
 
+  /// Takes the cells of another grid of the same size, too.
+  void unite(const BitGrid& other);
+
   /// The cells that sums of a cell of p and one of q fill, if equal cells are added as cubes, or squares if both have
   /// one layer: of cells i and j, i + j and its upper neighbours along all axes. Nothing if it would take more than
   /// `budget` steps: words of rows of one grid times slabs of the other, equal runs of cells in layers upon each other.

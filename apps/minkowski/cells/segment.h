@@ -42,6 +42,9 @@ struct FormOnSegment {
   // the factor leaves room for the rounding of the slope and of the sum here. Asked for each face of each neighbour.
   FormOnSegment(const RoundedFace& face, const Segment& s)
       : at(face.value(s.from)), slope(face.value(s.to) - at), error(2 * (face.slack + face.weight * s.error)) {}
+
+  /// True if the line of the segment surely meets the plane in one point.
+  [[nodiscard]] bool surely_changes() const { return std::fabs(slope) > 2 * error; }
 };
 
 /// Which way an interval is rounded.

@@ -400,7 +400,12 @@ class Run {
     Json object;
     object["union"] = a_.union_name;
     for (const StrategyChoice& choice : report_.choices) {
-      object["strategies"].push_back({{"chosen", choice.chosen}, {"why", choice.why}});
+      Json entry = {{"chosen", choice.chosen}, {"why", choice.why}};
+      if (choice.pairs_of_cells != 0) {
+        entry["estimates"] = {{"pairs_of_cells", choice.pairs_of_cells},
+                              {"convolution_facets", choice.convolution_facets}};
+      }
+      object["strategies"].push_back(std::move(entry));
     }
     object["cells"] = {report_.cells_a, report_.cells_b};
     object["pairs"] = report_.pairs;

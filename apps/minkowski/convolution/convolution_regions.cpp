@@ -7,6 +7,8 @@
 #include "apps/minkowski/convolution/convolution_regions.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -16,6 +18,7 @@
 #include "apps/minkowski/part_of_sum.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/base/union_find.h"
+#include "nef/complex/local_pyramid.h"
 #include "nef/sphere_map/sphere_geometry.h"
 #include "nef/synthesis/complex_builder.h"
 
@@ -28,23 +31,42 @@ struct Regions {
   UnionFind same{0};
 };
 
-// The svertex in the direction of a segment, or against it.
+// True if an arc on the great circle of a plane ends at an svertex.
+bool ends_on(const SphereMapView& map, std::uint32_t svertex, PlaneId plane) {
+  const std::uint32_t first = map.svertices[svertex].out;
+  if (first == kNone) return false;
+  std::uint32_t e = first;
+  do {
+    if (map.shalfedges[e].plane.row() == plane.row()) return true;
+    e = map.next_around(e);
+  } while (e != first);
+  return false;
+}
+
+// The svertex in the direction of a segment, or against it. Both facets of the segment go on there, so it is one of the
+// two points in which their great circles meet, and arcs on both of them end there.
 std::uint32_t svertex_along(const ConvolutionFacets& facets, const RegionVertex& v, const FacetSegment& s, bool forward,
                             const Monitor& monitor) {
-  Direction d = Direction::cross(facets.planes, facets.plane[s.f], facets.plane[s.g]);
+  const Direction d = Direction::cross(facets.planes, facets.plane[s.f], facets.plane[s.g]);
   double along = 0;
   for (std::size_t i = 0; i < 3; ++i) along += d.approximate[i] * (s.to[i] - s.from[i]);
-  if ((along > 0) != forward) d = d.negated();
-  for (std::uint32_t i = 0; i < v.map.svertices.size(); ++i) {
-    if (same_direction(direction_of(facets.planes, v.map.svertices[i]), d, monitor)) return i;
+  const int side = (along > 0) == forward ? 1 : -1;
+  const SphereMapView map = v.map.view();
+  for (std::uint32_t i = 0; i < map.svertices.size(); ++i) {
+    if (!ends_on(map, i, facets.plane[s.f]) || !ends_on(map, i, facets.plane[s.g])) continue;
+    if (sign_of_dot(direction_of(facets.planes, map.svertices[i]), d, monitor) == side) return i;
   }
   return kNone;
 }
 
+// Two sfaces of different vertices, counted over all of them.
+using SamePair = std::array<std::uint32_t, 2>;
+
 // The same half-planes leave both ends of the interval, and the same regions lie between them. Seen from the other end
 // a half-plane is that of the opposite plane, and has the region on its other side.
-void join(const ConvolutionFacets& facets, const SurvivingIntervals& intervals, const RegionVertices& found,
-          const RegionJoint& joint, Regions& regions, const Monitor& monitor) {
+void find_same(const ConvolutionFacets& facets, const SurvivingIntervals& intervals, const RegionVertices& found,
+               const RegionJoint& joint, const std::vector<std::uint32_t>& first_sface, std::vector<SamePair>& same,
+               const Monitor& monitor) {
   const FacetSegment& s = intervals.segments[joint.segment];
   const RegionVertex& from = found.vertices[joint.from];
   const RegionVertex& to = found.vertices[joint.to];
@@ -60,8 +82,8 @@ void join(const ConvolutionFacets& facets, const SurvivingIntervals& intervals, 
     std::uint32_t h = first_there;
     do {
       if (b.shalfedges[h].plane == a.shalfedges[e].plane.opposite()) {
-        regions.same.unite(regions.first[joint.from] + a.shalfedges[e].sface,
-                           regions.first[joint.to] + b.shalfedges[h ^ 1U].sface);
+        same.push_back(
+            {first_sface[joint.from] + a.shalfedges[e].sface, first_sface[joint.to] + b.shalfedges[h ^ 1U].sface});
       }
       h = b.next_around(h);
     } while (h != first_there);
@@ -78,7 +100,16 @@ Regions joined_regions(const ConvolutionFacets& facets, const SurvivingIntervals
     count += static_cast<std::uint32_t>(v.map.sfaces.size());
   }
   regions.same.reset(count);
-  for (const RegionJoint& joint : found.joints) join(facets, intervals, found, joint, regions, monitor);
+  constexpr std::size_t kChunk = 1024;
+  std::vector<std::vector<SamePair>> same((found.joints.size() + kChunk - 1) / kChunk);
+  parallel_for_ranges(found.joints.size(), kChunk, monitor, [&](std::size_t from, std::size_t to, const Monitor& own) {
+    for (std::size_t i = from; i < to; ++i) {
+      find_same(facets, intervals, found, found.joints[i], regions.first, same[from / kChunk], own);
+    }
+  });
+  for (const std::vector<SamePair>& pairs : same) {
+    for (const auto& [a, b] : pairs) regions.same.unite(a, b);
+  }
   return regions;
 }
 
@@ -115,8 +146,9 @@ struct RegionsInside {
 };
 
 // For each region around a vertex whether it is inside.
-RegionsInside regions_inside(const ConvolutionFacets& facets, FacetPyramids& pyramids, const SumMembership& membership,
-                             const std::vector<RegionVertex>& vertices, Regions& regions, const Monitor& monitor) {
+RegionsInside regions_inside(const ConvolutionFacets& facets, const FacetPyramids& pyramids,
+                             const SumMembership& membership, const std::vector<RegionVertex>& vertices,
+                             Regions& regions, const Monitor& monitor) {
   enum : std::uint8_t { kOut, kIn, kUnknown, kAsked };
   std::vector<std::uint8_t> state(regions.same.size(), kUnknown);
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
@@ -150,7 +182,7 @@ RegionsInside regions_inside(const ConvolutionFacets& facets, FacetPyramids& pyr
     if (state[region] != kAsked) continue;
     const Direction into =
         v.map.view().trivial() ? Direction::exact(1, 0, 0) : direction_into(facets.planes, v.map.view(), f, monitor);
-    Rational3 point = pyramids.point_towards(v.point, into);
+    Rational3 point = pyramids.point_towards(facets.points, v.point, into, monitor);
     const Double3 near = nearest_doubles(point);
     if (facets.covered.cover({&near, 1})) {
       state[region] = kIn;
@@ -176,9 +208,10 @@ struct MarkedItems {
 };
 
 // Marks all items around all vertices.
-MarkedItems mark_boundary(const ConvolutionFacets& facets, FacetPyramids& pyramids, const SumMembership& membership,
-                          const Regions& regions, const std::vector<std::uint8_t>& inside,
-                          std::vector<RegionVertex>& vertices, const Monitor& monitor) {
+MarkedItems mark_boundary(const ConvolutionFacets& facets, const FacetPyramids& pyramids,
+                          const SumMembership& membership, const Regions& regions,
+                          const std::vector<std::uint8_t>& inside, std::vector<RegionVertex>& vertices,
+                          const Monitor& monitor) {
   BoundaryMarker marker(pyramids, facets, monitor);
   for (std::uint32_t i = 0; i < vertices.size(); ++i) {
     RegionVertex& v = vertices[i];
@@ -196,34 +229,69 @@ MarkedItems mark_boundary(const ConvolutionFacets& facets, FacetPyramids& pyrami
   return {marker.tested(), missing};
 }
 
-Complex complex_of(const ConvolutionFacets& facets, PlaneTable& planes, const std::vector<RegionVertex>& vertices,
-                   const Monitor& monitor) {
-  const bool is_closed = facets.marks == BoundaryMarks::kAll;
-  ComplexBuilder builder(planes, monitor);
-  Arrangement drawing;
-  for (const RegionVertex& v : vertices) {
-    if (v.is_plain) continue;
+// Draws the regions around points anew, with their marks, in the unique form. Not to be shared between threads.
+class VertexDrawer {
+ public:
+  // The planes must outlive the object.
+  explicit VertexDrawer(const PlaneTable& planes) : planes_(planes) {}
+
+  // False if the sum has no vertex at the point.
+  bool draw(RegionVertex& v, bool is_closed, const Monitor& monitor) {
+    if (v.is_plain) return false;
     const auto is_inside = [](const SFace& f) { return f.mark != 0; };
-    if (is_closed && std::all_of(v.map.sfaces.begin(), v.map.sfaces.end(), is_inside)) continue;
-    drawing.load(planes, v.map.view());
-    builder.add(facets.points, v.point, drawing);
+    if (is_closed && std::all_of(v.map.sfaces.begin(), v.map.sfaces.end(), is_inside)) return false;
+    drawing_.load(planes_, v.map.view());
+    drawing_.sort_around_nodes(planes_, monitor);
+    drawing_.simplify_and_assemble(planes_, v.map, monitor);
+    return is_vertex(planes_, v.map.view(), monitor);
   }
+
+ private:
+  const PlaneTable& planes_;
+  Arrangement drawing_;
+};
+
+// Consecutive points that are vertices, as parts of a complex. The drawings are freed.
+Complex part_of_complex(const ConvolutionFacets& facets, PlaneTable& planes, std::span<RegionVertex> vertices,
+                        const Monitor& monitor) {
+  const bool is_closed = facets.marks == BoundaryMarks::kAll;
+  VertexDrawer drawer(planes);
+  ComplexBuilder builder(planes, monitor);
+  for (RegionVertex& v : vertices) {
+    if (drawer.draw(v, is_closed, monitor)) builder.append(facets.points, v.point, v.map.view());
+    v.map = SphereMapBuffer();
+  }
+  return builder.take_so_far();
+}
+
+Complex complex_of(const ConvolutionFacets& facets, PlaneTable& planes, std::vector<RegionVertex>& vertices,
+                   const Monitor& monitor) {
+  constexpr std::size_t kRange = 1024;
+  std::vector<Complex> parts((vertices.size() + kRange - 1) / kRange);
+  parallel_for_ranges(vertices.size(), kRange, monitor, [&](std::size_t from, std::size_t to, const Monitor& own) {
+    parts[from / kRange] = part_of_complex(facets, planes, std::span(vertices).subspan(from, to - from), own);
+  });
+  std::vector<ComplexBuilder::CopiedRun> runs;
+  for (const Complex& part : parts) runs.push_back({&part, VertexId{0}, part.vertex_ids().size(), {}, {}});
+  ComplexBuilder builder(planes, monitor);
+  builder.copy(runs, monitor);
+  parts.clear();
   return builder.finish(0);
 }
 
 }  // namespace
 
-SumOfRegions sum_of_regions(ConvolutionFacets& facets, const RoundedFacets& rounded,
-                            const SurvivingIntervals& intervals, const SumMembership& membership,
-                            std::span<const SaddlePoint> saddles, const Monitor& monitor) {
+SumOfRegions sum_of_regions(ConvolutionFacets& facets, const RoundedFacets& rounded, const BoxTree& tree,
+                            const SharedSides& at_side, const SurvivingIntervals& intervals,
+                            const SumMembership& membership, std::span<const SaddlePoint> saddles,
+                            const Monitor& monitor) {
   // Shares of the time are measured, for the bar only.
   const PartOfSum points(monitor, 0, 0.4);
   const PartOfSum tests(monitor, 0.4, 0.8);
   const PartOfSum marks(monitor, 0.8, 0.95);
-  const BoxTree tree(rounded.boxes());
-  FacetPyramids pyramids(facets, rounded, tree, monitor);
-  RegionVertices found =
-      region_vertices(facets, rounded, tree, pyramids, intervals, membership, saddles, points.monitor());
+  const FacetPyramids pyramids(facets, rounded, at_side, tree, monitor);
+  const FacetArrangement arrangement{facets, rounded, tree, pyramids, at_side, intervals, membership};
+  RegionVertices found = region_vertices(arrangement, facets, saddles, points.monitor());
   Regions regions = joined_regions(facets, intervals, found, monitor);
   const RegionsInside known = regions_inside(facets, pyramids, membership, found.vertices, regions, tests.monitor());
   const MarkedItems items =

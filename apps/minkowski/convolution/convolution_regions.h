@@ -24,10 +24,11 @@ struct SumOfRegions {
 /// Takes the points at which surviving intervals end, finds the regions around them, joins those that an interval
 /// joins, and makes the sum. A region is inside if it is just behind a facet. Of others, a point on no facet is put to
 /// the definition. If the sum need not be closed, so are its saddle points, places where it may be as narrow as it can
-/// be, and what cannot be told by facets there. The facets' tables get more planes and points. The monitor is
-/// told of kSumPhase.
-SumOfRegions sum_of_regions(ConvolutionFacets& facets, const RoundedFacets& rounded,
-                            const SurvivingIntervals& intervals, const SumMembership& membership,
-                            std::span<const SaddlePoint> saddles, const Monitor& monitor);
+/// be, and what cannot be told by facets there. `tree` is over the boxes of the facets, whose tables get more planes
+/// and points. The monitor is told of kSumPhase.
+SumOfRegions sum_of_regions(ConvolutionFacets& facets, const RoundedFacets& rounded, const BoxTree& tree,
+                            const SharedSides& at_side, const SurvivingIntervals& intervals,
+                            const SumMembership& membership, std::span<const SaddlePoint> saddles,
+                            const Monitor& monitor);
 
 }  // namespace nef::minkowski

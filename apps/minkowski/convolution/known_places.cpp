@@ -8,6 +8,12 @@
 
 namespace nef::minkowski {
 
+const FacetAtPoint* KnownPoint::find(std::uint32_t facet) const {
+  const auto at = std::lower_bound(facets.begin(), facets.end(), facet,
+                                   [](const FacetAtPoint& x, std::uint32_t y) { return x.facet < y; });
+  return at != facets.end() && at->facet == facet ? &*at : nullptr;
+}
+
 PlacesOfPoints::PlacesOfPoints(double extent) : size_(std::ldexp(extent, -24)) {}
 
 void PlacesOfPoints::add(const Double3& place, std::uint32_t point) { points_[key_of(place)].push_back(point); }

@@ -8,10 +8,20 @@
 #include <unordered_map>
 #include <vector>
 
+#include "apps/minkowski/convolution/arrangement/facet_pyramids.h"
 #include "nef/geometry/search/box_tree.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef::minkowski {
+
+/// A point that was looked at.
+struct KnownPoint {
+  std::uint32_t vertex = kNone;      ///< drawn there; kNone if the sum surely has none
+  std::vector<FacetAtPoint> facets;  ///< that hold it, in ascending order
+
+  /// A facet among these, or nullptr. O(log n).
+  [[nodiscard]] const FacetAtPoint* find(std::uint32_t facet) const;
+};
 
 /// Points by where they are about, in the cells of a grid.
 class PlacesOfPoints {

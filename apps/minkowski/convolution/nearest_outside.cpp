@@ -103,7 +103,7 @@ struct NearestPoint {
 class Search {
  public:
   Search(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor)
-      : a_(a), b_(b), monitor_(monitor), membership_(a, b, monitor) {}
+      : a_(a), b_(b), monitor_(monitor), membership_(a, negate(b, monitor)) {}
 
   std::optional<NearestOutside> run(std::string& why) {
     const bool convex_a = is_convex(closure(a_, monitor_), monitor_);
@@ -125,7 +125,7 @@ class Search {
     monitor_.tell_progress(kSumPhase, 1, 10);
     const NearOrigin near(bound_);
     facets_ = reduced_convolution(of_a, of_b, monitor_, near);
-    const RoundedFacets rounded(facets_);
+    const RoundedFacets rounded(facets_, monitor_);
     if (!rounded.are_proven()) {
       why = "coordinates are too large or too small for doubles";
       return std::nullopt;

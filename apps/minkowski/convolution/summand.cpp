@@ -32,6 +32,11 @@ const Polyhedron& Summand::filled(const Monitor& monitor) {
   return *filled_;
 }
 
+const Polyhedron& Summand::turned(const Monitor& monitor) {
+  if (!turned_) turned_ = negate(filled(monitor), monitor);
+  return *turned_;
+}
+
 const SolidFeatures& Summand::features(const Monitor& monitor) {
   if (!features_) features_.emplace(filled(monitor), monitor);
   return *features_;

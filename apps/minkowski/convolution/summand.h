@@ -29,6 +29,8 @@ class Summand {
   /// The set with points, segments and facets that are missing inside: they change no sum of sets that lie in the
   /// closures of their interiors (see minkowski_sum.cpp). What follows is of that. A union, if something is missing.
   const Polyhedron& filled(const Monitor& monitor);
+  /// The points -x of all x in that. O(n).
+  const Polyhedron& turned(const Monitor& monitor);
   /// O(n), and what triangulations of facets take.
   const SolidFeatures& features(const Monitor& monitor);
   /// O(n d^3) for vertices of degree d. Each edge must have one wedge.
@@ -39,7 +41,7 @@ class Summand {
 
  private:
   Polyhedron set_;
-  std::optional<Polyhedron> filled_;
+  std::optional<Polyhedron> filled_, turned_;
   std::optional<SolidFeatures> features_;
   std::optional<Saddles> saddles_;
   std::optional<bool> is_convex_, has_convex_closure_;

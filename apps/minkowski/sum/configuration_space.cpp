@@ -58,7 +58,7 @@ void append(std::vector<ConvexCell>& to, std::vector<ConvexCell> from) {
 struct WithoutCells {
   std::vector<Polyhedron> sums;
   std::vector<char> is_done;  // per obstacle
-  std::string why_others;
+  StrategyChoice others;
 };
 
 // Measured: cells of small obstacles, all in one union, are faster than as many sums. Sets of few vertices have few
@@ -69,7 +69,7 @@ WithoutCells sums_without_cells(const Polyhedron& robot, std::span<const Polyhed
                                 const MinkowskiOptions& options, MinkowskiReport& report) {
   WithoutCells result;
   result.is_done.assign(obstacles.size(), 0);
-  result.why_others = "obstacles are convex, have few cells, or are not solid";
+  result.others.why = "obstacles are convex, have few cells, or are not solid";
   const bool insist = options.strategy == UnionStrategy::kConvolution;
   if (!insist && options.strategy != UnionStrategy::kAuto) return result;
   const Monitor& monitor = options.monitor;
@@ -85,17 +85,17 @@ WithoutCells sums_without_cells(const Polyhedron& robot, std::span<const Polyhed
     if (!insist && vertices < 4 * kFewPairs) continue;
     const std::size_t cells = insist ? 0 : estimated_cells(closed.complex(), monitor);
     if (!insist && (cells < 2 || cells * robot_cells < kFewPairs)) continue;
-    std::string why;
+    StrategyChoice choice;
     const PartOfSum part(monitor, static_cast<double>(i) / parts, static_cast<double>(i + 1) / parts);
     Summand of_obstacle(closed);
     std::optional<Polyhedron> sum =
-        sum_by_convolution(of_obstacle, of_robot, {options.strategy, part.monitor()}, report, why);
+        sum_by_convolution(of_obstacle, of_robot, {options.strategy, part.monitor()}, report, choice).sum;
     if (sum) {
-      report.choices.push_back({"convolution", std::move(why)});
+      report.choices.push_back(std::move(choice));
       result.sums.push_back(*std::move(sum));
       result.is_done[i] = 1;
     } else {
-      result.why_others = std::move(why);
+      result.others = std::move(choice);
     }
   }
   return result;
@@ -179,7 +179,7 @@ Polyhedron configuration_space(const Polyhedron& robot, std::span<const Polyhedr
     const auto before = static_cast<double>(obstacles.size());
     const PartOfSum last(options.monitor, before / (before + 1));
     without_cells.sums.push_back(
-        union_of_pair_sums_for(std::move(without_cells.why_others), products, {options.strategy, last.monitor()}, r));
+        union_of_pair_sums_for(std::move(without_cells.others), products, {options.strategy, last.monitor()}, r));
   }
   Polyhedron free;
   {

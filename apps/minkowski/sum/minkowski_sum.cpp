@@ -57,17 +57,24 @@ Operands decompose_both(const Polyhedron& a, const Polyhedron& b, const Minkowsk
 
 Polyhedron bounded_sum(const Polyhedron& a, const Polyhedron& b, const MinkowskiOptions& options,
                        MinkowskiReport& report) {
-  std::string why;
   if (std::optional<Polyhedron> sum = flat_sum_by_convolution(a, b, options, report)) return *std::move(sum);
   Summand of_a(a);
   Summand of_b(b);
-  if (std::optional<Polyhedron> sum = sum_by_convolution(of_a, of_b, options, report, why)) {
-    report.choices.push_back({"convolution", std::move(why)});
+  StrategyChoice choice;
+  const auto told = [&](std::optional<Polyhedron>&& sum) {
+    report.choices.push_back(std::move(choice));
     return *std::move(sum);
-  }
+  };
+  TriedConvolution tried = sum_by_convolution(of_a, of_b, options, report, choice);
+  if (tried.sum) return told(std::move(tried.sum));
   const Operands cells = decompose_both(a, b, options, report);
+  if (tried.is_put_off) {
+    const std::size_t pairs = cells.a.size() * cells.b.size();
+    std::optional<Polyhedron> sum = sum_by_convolution_after_all(of_a, of_b, pairs, options, report, choice);
+    if (sum) return told(std::move(sum));
+  }
   const Product product{cells.a, cells.b};
-  return union_of_pair_sums_for(std::move(why), {&product, 1}, options, report);
+  return union_of_pair_sums_for(std::move(choice), {&product, 1}, options, report);
 }
 
 // With an unbounded set, a set of bounded complement sums to everything: the former never fits into a hole of the

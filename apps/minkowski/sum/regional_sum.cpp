@@ -87,8 +87,13 @@ void add_choices(MinkowskiReport& to, std::span<const MinkowskiReport> regions) 
       const auto same = std::find_if(kinds.begin(), kinds.end(), [&](const auto& kind) {
         return kind.first.chosen == choice.chosen && kind.first.why == choice.why;
       });
-      if (same != kinds.end()) ++same->second;
-      if (same == kinds.end()) kinds.emplace_back(choice, 1);
+      if (same == kinds.end()) {
+        kinds.emplace_back(choice, 1);
+        continue;
+      }
+      ++same->second;
+      same->first.pairs_of_cells += choice.pairs_of_cells;
+      same->first.convolution_facets += choice.convolution_facets;
     }
   }
   for (auto& [choice, count] : kinds) {

@@ -62,9 +62,14 @@ Examples:
   planner scene.json --benchmark bench.log --planners RRTConnect,PRMstar --runs 10)TEXT";
 
 void declare_ompl(CLI::App& app, Arguments& a) {
-  app.add_option("--ompl", a.ompl, "Use this planner of OMPL on the exact free space");
-  app.add_option("--time", a.time,
-                 "Seconds after which the answer is undecided; with --ompl or --benchmark, for each run of a planner")
+  app.add_option(
+      "--ompl", a.ompl,
+      "Use this planner of OMPL on the exact free space, with samples from tight passages, too; of a robot that turns "
+      "freely, from exact free spaces at rotations");
+  app.add_option(
+         "--time", a.time,
+         "Seconds after which the answer is undecided, reading included; with --ompl or --benchmark, for each run of "
+         "a planner")
       ->check(CLI::Range(1e-3, 1e6));
   app.add_option("--runs", a.runs, "Runs of each OMPL planner")->check(CLI::Range(1U, 1000000U));
   app.add_option("--benchmark", a.benchmark, "Compare this planner with --planners, and write OMPL's benchmark log");
@@ -99,19 +104,19 @@ std::vector<Exclusion> exclusions() {
   return {
       {"--range",
        {kScene.data(), "--assembly", "--path", "--queries", "--tight", "--widest", "--widest-box", "--proof",
-        "--check-proof"}},
+        "--check-proof", "--turn-freely"}},
       {"--verdict",
        {kScene.data(), "--assembly", "--range", "--path", "--queries", "--page", "--tight", "--widest", "--widest-box",
-        "--proof", "--check-proof", "--time"}},
+        "--proof", "--check-proof", "--time", "--turn-freely"}},
       {"--linkage",
        {kScene.data(), "--assembly",    "--range",  "--verdict",       "--queries",    "--start",  "--goal",
         "--contact",   "--tight",       "--widest", "--widest-box",    "--keep-clear", "--speed",  "--prefer",
         "--clearance", "--raw",         "--quick",  "--min-dimension", "--se3",        "--digits", "--max-cells",
-        "--proof",     "--check-proof", "--ompl",   "--benchmark"}},
+        "--proof",     "--check-proof", "--ompl",   "--benchmark",     "--turn-freely"}},
       {"--assembly",
        {kScene.data(), "--start", "--goal", "--contact", "--tight", "--path", "--queries", "--ompl", "--benchmark",
         "--widest", "--widest-box", "--speed", "--prefer", "--clearance", "--raw", "--quick", "--min-dimension",
-        "--se3"}},
+        "--se3", "--turn-freely"}},
       {"--free-directions", {"--digits", "--proof", "--check-proof", "--simultaneous", "--keep-clear"}},
       {"--benchmark", {"--ompl"}},
       {"--path", {"--ompl", "--benchmark"}},
@@ -244,6 +249,8 @@ void declare(CLI::App& app, Arguments& a) {
                  "Start to use instead of the scene's; for a robot that turns, followed by degrees or by qw,qx,qy,qz")
       ->type_name("X,Y,Z");
   app.add_option("--goal", a.goal, "Goal to use instead of the scene's")->type_name("X,Y,Z");
+  app.add_flag("--turn-freely", a.turn_freely,
+               "Let the robot of a .cfg file turn about all axes, as in OMPL.app, whatever its start and goal");
   const auto take_contact = [&a](const std::string& rule) {
     a.contact = rule == "allow" ? ContactRule::kAllow : ContactRule::kForbid;
   };

@@ -55,6 +55,7 @@ struct Arguments {
   unsigned runs = 1;
   bool tight = false;
   bool se3 = false;
+  bool turn_freely = false;
 };
 
 /// Throws InputError for options that do not go together, or with the extensions of the files that are to be written,

@@ -24,16 +24,16 @@ BarrierGraph::BarrierGraph(const PathProof::Claim& claim, const Rational3& refer
   cells_.emplace_back().is_hopeless = true;  // outside
 }
 
-void BarrierGraph::add_root(std::vector<BlockingPairs::Pair> pairs, const Judge& judge) {
+BarrierGraph::Id BarrierGraph::add_root(std::vector<BlockingPairs::Pair> pairs) {
   BarrierCell& all = cells_.emplace_back();
   all.box = bounds_.rough;
   all.pairs = std::move(pairs);
   const Id root = kOutside + 1;
-  judge(root);
   link(kOutside, root);
+  return root;
 }
 
-void BarrierGraph::cut(Id id, const Judge& judge) {
+std::array<BarrierGraph::Id, 2> BarrierGraph::cut(Id id) {
   const auto first = static_cast<Id>(cells_.size());
   for (const bool upper : {false, true}) {
     const BarrierCell& cell = cells_[id];
@@ -42,16 +42,17 @@ void BarrierGraph::cut(Id id, const Judge& judge) {
     half.pairs = cell.pairs;
     (upper ? half.box.low : half.box.high)[static_cast<Eigen::Index>(cell.axis)] = cell.middle_of_axis();
     cells_.push_back(std::move(half));
-    judge(first + (upper ? 1 : 0));
   }
   cells_[id].state = State::kCut;
   cells_[id].halves = {first, first + 1};
+  cells_[id].blocked = {};
   link(first, first + 1);
   for (const Id other : std::exchange(cells_[id].neighbours, {})) {
     if (cells_[other].state == State::kCut) continue;
     link(first, other);
     link(first + 1, other);
   }
+  return cells_[id].halves;
 }
 
 BarrierGraph::Id BarrierGraph::cell_of(const Vector3d& position) const {
@@ -106,7 +107,7 @@ std::vector<BarrierGraph::Id> BarrierGraph::cheapest_barrier() {
   if (cells_[start].state != State::kOpen || cells_[goal].state != State::kOpen) return {};
   NodeCut found{WeightedGraph::kUncuttable, {}};
   if (start != goal) found = minimum_node_cut(graph, start, goal);
-  in_question_ = found.nodes.size();
+  in_question_ = found.nodes;
   is_found_ = found.weight == 0;
   if (found.weight < WeightedGraph::kUncuttable) return found.nodes;
   found.nodes.clear();
@@ -132,7 +133,7 @@ std::vector<bool> BarrierGraph::reached() const {
   return result;
 }
 
-PathProof::PoseCells BarrierGraph::written(const Rational3& reference, std::size_t charts) const {
+PathProof::PoseCells BarrierGraph::take_written(const Rational3& reference, std::size_t charts) {
   NEF_ASSERT(is_found_);
   PathProof::PoseCells result;
   result.reference = reference;
@@ -141,19 +142,19 @@ PathProof::PoseCells BarrierGraph::written(const Rational3& reference, std::size
   result.outside_at_start = at_start[kOutside];
   result.charts.reserve(charts);
   for (std::size_t chart = 0; chart < charts; ++chart) {
-    result.charts.push_back(written(kOutside + 1, chart, at_start));
+    result.charts.push_back(take_written(kOutside + 1, chart, at_start));
   }
   return result;
 }
 
-PathProof::PoseCell BarrierGraph::written(Id id, std::size_t chart, const std::vector<bool>& at_start) const {
-  const BarrierCell& cell = cells_[id];
-  if (cell.state == State::kBlocked) return cell.blocked[chart];
+PathProof::PoseCell BarrierGraph::take_written(Id id, std::size_t chart, const std::vector<bool>& at_start) {
+  BarrierCell& cell = cells_[id];
+  if (cell.state == State::kBlocked) return std::move(cell.blocked[chart]);
   PathProof::PoseCell result;
   result.kind = at_start[id] ? Kind::kStart : Kind::kGoal;
   if (cell.state == State::kOpen) return result;
   result.halves.reserve(2);  // nothing is copied again
-  for (const Id half : cell.halves) result.halves.push_back(written(half, chart, at_start));
+  for (const Id half : cell.halves) result.halves.push_back(take_written(half, chart, at_start));
   const Kind kind = result.halves[0].kind;
   if (kind == result.halves[1].kind && (kind == Kind::kStart || kind == Kind::kGoal)) {
     result.kind = kind;

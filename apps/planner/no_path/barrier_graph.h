@@ -7,7 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <vector>
 
 #include "apps/planner/no_path/barrier_bounds.h"
@@ -28,16 +27,18 @@ struct BarrierCell {
   std::int64_t weight = WeightedGraph::kUncuttable;  ///< about how many boxes it takes to block the way through it
   std::uint32_t axis = 0;                            ///< where to cut it: a coordinate
   std::array<Id, 2> halves{};
-  std::vector<Id> neighbours;                ///< those that are not blocked; some of them may have been cut
-  std::vector<BlockingPairs::Pair> pairs;    ///< that may overlap in it
-  std::vector<PathProof::PoseCell> blocked;  ///< what shows that it is blocked, for each chart that it goes through
+  std::vector<Id> neighbours;              ///< those that are not blocked; some of them may have been cut
+  std::vector<BlockingPairs::Pair> pairs;  ///< that may overlap in it
+  /// What shows that it is blocked, for each chart that it goes through; of an open cell as far as that is known.
+  std::vector<PathProof::PoseCell> blocked;
 
   /// Where it is cut.
   [[nodiscard]] double middle_of_axis() const;
 };
 
-/// A tree of boxes: they are judged and cut by those who look for a barrier. Cells are known by their numbers: kOutside
-/// is what lies beyond the bounds, then come the root and the halves of cells that are cut.
+/// A tree of boxes: they are judged (given a weight and an axis) and cut by those who look for a barrier. Cells are
+/// known by their numbers: kOutside is what lies beyond the bounds, then come the root and the halves of cells that are
+/// cut.
 class BarrierGraph {
  public:
   using Id = BarrierCell::Id;
@@ -52,22 +53,21 @@ class BarrierGraph {
   [[nodiscard]] BarrierCell& operator[](Id id) { return cells_[id]; }
   [[nodiscard]] const BarrierCell& operator[](Id id) const { return cells_[id]; }
 
-  using Judge = std::function<void(Id)>;
-  /// All positions within the bounds: a cell that `judge` gives its weight and axis. To be called once, first.
-  void add_root(std::vector<BlockingPairs::Pair> pairs, const Judge& judge);
-  /// Cuts a cell into two halves, which are judged.
-  void cut(Id id, const Judge& judge);
+  /// All positions within the bounds; nobody has judged the cell. To be called once, first.
+  Id add_root(std::vector<BlockingPairs::Pair> pairs);
+  /// Cuts a cell into two halves, which are not judged.
+  std::array<Id, 2> cut(Id id);
 
   /// The open cells of the cheapest barrier, which are in question; or start and goal, if all barriers go through what
   /// is hopeless. None if nothing is left to be done: if a barrier was found, or cannot be.
   std::vector<Id> cheapest_barrier();
   /// Whether blocked cells separate start and goal, by the last call of cheapest_barrier.
   [[nodiscard]] bool is_found() const { return is_found_; }
-  /// How many cells of that barrier are not known to be blocked.
-  [[nodiscard]] std::size_t in_question() const { return in_question_; }
+  /// The cells of that barrier that are not known to be blocked.
+  [[nodiscard]] const std::vector<Id>& in_question() const { return in_question_; }
 
-  /// The boxes of a barrier that was found, for each chart.
-  [[nodiscard]] PathProof::PoseCells written(const Rational3& reference, std::size_t charts) const;
+  /// The boxes of a barrier that was found, for each chart. They are taken out of the graph, which is of no use then.
+  [[nodiscard]] PathProof::PoseCells take_written(const Rational3& reference, std::size_t charts);
 
  private:
   [[nodiscard]] Id cell_of(const Vector3d& position) const;
@@ -75,14 +75,14 @@ class BarrierGraph {
   [[nodiscard]] static bool have_facet_in_common(const PositionBox& a, const PositionBox& b);
   void link(Id a, Id b);
   [[nodiscard]] std::vector<bool> reached() const;
-  [[nodiscard]] PathProof::PoseCell written(Id id, std::size_t chart, const std::vector<bool>& at_start) const;
+  PathProof::PoseCell take_written(Id id, std::size_t chart, const std::vector<bool>& at_start);
 
   bool is_bounded_;
   BarrierBounds bounds_;
   std::array<Vector3d, 2> ends_;  // of the reference point
   std::vector<BarrierCell> cells_;
   bool is_found_ = false;
-  std::size_t in_question_ = 0;
+  std::vector<Id> in_question_;
 };
 
 }  // namespace nef::planner

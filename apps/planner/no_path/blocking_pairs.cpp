@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "apps/planner/intersection/hulls_apart.h"
+#include "apps/planner/no_path/drifting_piece.h"
 #include "nef/construct/convex_hull.h"
 #include "nef/geometry/vectors.h"
 
@@ -103,6 +105,7 @@ TurnedRobot BlockingPairs::turned(const OrientationBox<double>& box) const {
   TurnedRobot result;
   for (const RoughSolid& piece : robot_) result.pieces.push_back(inner_piece(piece, mixed));
   for (const ScaledMatrix<double>& m : mixed) result.origins.push_back(turned_vector(m, -reference_));
+  result.matrices = std::move(mixed);
   return result;
 }
 
@@ -163,6 +166,107 @@ std::vector<CommonDepth> BlockingPairs::at_all(const Pair& pair, const TurnedRob
     const CommonDepth depth = program.at(position, 8 * scale_, resolution());
     if (depth.depth <= resolution()) break;
     result.push_back(depth);
+  }
+  return result;
+}
+
+namespace {
+
+using Drift = std::array<Vector3d, 3>;
+
+// The drift with which a point is deepest inside both at the corners of the box of orientations, at one position. What
+// lies between the corners is left to the user of the drift.
+std::optional<Drift> best_drift(const DriftingPiece& piece, const RoughSolid& obstacle, const Vector3d& position,
+                                double limit, double least) {
+  constexpr std::size_t kDepth = 12;  // the variables: a point, its drifts, and how deep it is
+  SmallProgram<kDepth + 1> program;
+  const auto add = [&](const Vector3d& normal, const Drift& drifts, double length, double bound) {
+    std::array<double, kDepth + 1> row{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
+      row[i] = normal[at];
+      for (std::size_t k = 0; k < 3; ++k) row[3 + 3 * k + i] = drifts[k][at];
+    }
+    row[kDepth] = length;
+    program.add(row, bound);
+  };
+  constexpr std::size_t kCorners = 8;
+  program.reserve(piece.half_spaces.size() / kCorners + kCorners * obstacle.normals.size());
+  for (const DriftingPiece::HalfSpace& h : piece.half_spaces) {
+    if (h.is_corner) add(h.normal, h.drifts, h.length, h.offset);
+  }
+  for (std::size_t r = 0; r < obstacle.normals.size(); ++r) {
+    const Vector3d& o = obstacle.normals[r];
+    for (std::size_t corner = 0; corner < kCorners; ++corner) {
+      Drift drifts;
+      for (std::size_t k = 0; k < 3; ++k) drifts[k] = ((corner >> k) & 1) != 0 ? o : Vector3d(-o);
+      add(o, drifts, kInObstacle, obstacle.offsets[r] - o.dot(position));
+    }
+  }
+  std::array<double, kDepth + 1> objective{};
+  objective[kDepth] = 1;
+  const auto found = program.maximize(objective, limit, least);
+  if (!found) return std::nullopt;
+  Drift result;
+  for (std::size_t k = 0; k < 3; ++k) result[k] = {(*found)[3 + 3 * k], (*found)[4 + 3 * k], (*found)[5 + 3 * k]};
+  return result;
+}
+
+// The deepest points with a given drift.
+class DriftProgram {
+ public:
+  DriftProgram(const DriftingPiece& piece, const RoughSolid& obstacle, const Drift& drift)
+      : obstacle_(obstacle), first_(piece.half_spaces.size()) {
+    program_.reserve(first_ + obstacle.normals.size());
+    for (const DriftingPiece::HalfSpace& h : piece.half_spaces) {
+      double bound = h.offset;
+      for (std::size_t k = 0; k < 3; ++k) bound -= h.drifts[k].dot(drift[k]);
+      program_.add({h.normal[0], h.normal[1], h.normal[2], h.length}, bound);
+    }
+    for (std::size_t r = 0; r < obstacle.normals.size(); ++r) {
+      const Vector3d& o = obstacle.normals[r];
+      program_.add({o[0], o[1], o[2], kInObstacle}, 0);
+      double bound = obstacle.offsets[r];
+      for (const Vector3d& way : drift) bound -= std::fabs(o.dot(way));
+      bounds_.push_back(bound);
+    }
+  }
+
+  CommonDepth at(const Vector3d& position, double limit, double least) {
+    for (std::size_t r = 0; r < bounds_.size(); ++r) {
+      program_.set_bound(first_ + r, bounds_[r] - obstacle_.normals[r].dot(position));
+    }
+    const auto found = program_.maximize({0, 0, 0, 1}, limit, least);
+    if (!found) return {};
+    return {position + Vector3d((*found)[0], (*found)[1], (*found)[2]), found->back()};
+  }
+
+ private:
+  const RoughSolid& obstacle_;
+  std::size_t first_;  // the row of the obstacle's first face
+  std::vector<double> bounds_;
+  SmallProgram<4> program_;
+};
+
+}  // namespace
+
+DriftingDepths BlockingPairs::drifting_at_all(const Pair& pair, const TurnedRobot& robot, const Vector3d& middle,
+                                              std::span<const Vector3d> positions) const {
+  const RoughSolid& moving = robot_[pair[0]];
+  const RoughSolid& obstacle = obstacles_[pair[1]];
+  const DriftingPiece piece = drifting_piece(moving.normals, moving.offsets, robot.matrices);
+  DriftingDepths result;
+  if (piece.half_spaces.empty()) return result;
+  const std::optional<Drift> drift = best_drift(piece, obstacle, middle, 8 * scale_, resolution());
+  if (!drift) return result;
+  result.drift = *drift;
+  DriftProgram program(piece, obstacle, *drift);
+  result.middle = program.at(middle, 8 * scale_, resolution()).depth;
+  if (result.middle <= resolution()) return result;
+  for (const Vector3d& position : positions) {
+    const CommonDepth depth = program.at(position, 8 * scale_, resolution());
+    if (depth.depth <= resolution()) break;
+    result.at.push_back(depth);
   }
   return result;
 }

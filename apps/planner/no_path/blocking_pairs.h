@@ -35,7 +35,8 @@ struct InnerPiece {
 /// The robot's inner pieces for all orientations of a box.
 struct TurnedRobot {
   std::vector<InnerPiece> pieces;
-  std::vector<Vector3d> origins;  ///< mixed rotations of the robot's origin, seen from the reference point
+  std::vector<Vector3d> origins;               ///< mixed rotations of the robot's origin, seen from the reference point
+  std::vector<ScaledMatrix<double>> matrices;  ///< the mixed rotations of the box; none if it is too large
 };
 
 /// A box of positions of the reference point.
@@ -58,6 +59,13 @@ struct PositionBox {
 struct CommonDepth {
   Vector3d point{0, 0, 0};
   double depth = 0;
+};
+
+/// Points of an obstacle inside of the robot that drift as it turns (DriftingPiece).
+struct DriftingDepths {
+  double middle = 0;              ///< how deep the point is at the middle of the positions; 0 if it is not
+  std::array<Vector3d, 3> drift;  ///< for each parameter of the box of orientations, up to its upper end
+  std::vector<CommonDepth> at;    ///< in the middle of that box, at the positions
 };
 
 /// A robot among obstacles, as what may block its poses. The orientations must outlive it.
@@ -84,6 +92,12 @@ class BlockingPairs {
   /// it does at all positions of their hull.
   [[nodiscard]] std::vector<CommonDepth> at_all(const Pair& pair, const TurnedRobot& robot,
                                                 std::span<const Vector3d> positions) const;
+
+  /// How a pair overlaps at some positions at all orientations for which the robot is turned, if the points in common
+  /// drift; the drift is one that suits the middle of the positions. Up to the first position at which the pair does
+  /// not overlap. Nothing if the orientations have not three parameters, or are too many.
+  [[nodiscard]] DriftingDepths drifting_at_all(const Pair& pair, const TurnedRobot& robot, const Vector3d& middle,
+                                               std::span<const Vector3d> positions) const;
 
   /// How far all positions of the box are beyond a side of the claim's box, and which side (0 to 2 the lower ones, 3 to
   /// 5 the upper ones); below zero if some are not beyond any.

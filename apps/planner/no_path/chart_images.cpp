@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "nef/base/threads/parallel.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef::planner {
@@ -80,16 +81,32 @@ std::vector<std::optional<ChartImage>> images_of_charts(const PathProof::Claim& 
   return result;
 }
 
-PathProof::PoseCell image_of(const PathProof::PoseCell& cell, const ChartImage& image) {
+namespace {
+
+// `levels`: how often both halves of a box are made at once.
+PathProof::PoseCell image_of(const PathProof::PoseCell& cell, const ChartImage& image, unsigned levels,
+                             const Monitor& monitor) {
   PathProof::PoseCell result;
   result.kind = cell.kind;
   result.axis = cell.axis;
   result.at = cell.at;
   result.obstacle = cell.obstacle;
   result.common = cell.common;
+  result.drift = cell.drift;
+  for (std::size_t k = 0; k < cell.drift.size(); ++k) {
+    result.drift[image.becomes[k]] = image.signs[k] < 0 ? opposite(cell.drift[k]) : cell.drift[k];
+  }
   result.side = cell.side;
-  result.halves.reserve(cell.halves.size());  // nothing is copied again
-  for (const PathProof::PoseCell& half : cell.halves) result.halves.push_back(image_of(half, image));
+  result.halves.resize(cell.halves.size());
+  const auto make_half = [&](std::size_t i, const Monitor& own) {
+    result.halves[i] = image_of(cell.halves[i], image, levels == 0 ? 0 : levels - 1, own);
+  };
+  if (levels > 0 && cell.halves.size() == 2) {
+    parallel_calls(monitor,
+                   {[&](const Monitor& own) { make_half(0, own); }, [&](const Monitor& own) { make_half(1, own); }});
+  } else {
+    for (std::size_t i = 0; i < cell.halves.size(); ++i) make_half(i, monitor);
+  }
   if (cell.kind == PathProof::PoseCell::Kind::kBlocked) result.robot = image.pieces[cell.robot];
   if (cell.kind == PathProof::PoseCell::Kind::kCut && cell.axis >= 3) {
     result.axis = 3 + image.becomes[cell.axis - 3];
@@ -99,6 +116,13 @@ PathProof::PoseCell image_of(const PathProof::PoseCell& cell, const ChartImage& 
     }
   }
   return result;
+}
+
+}  // namespace
+
+PathProof::PoseCell image_of(const PathProof::PoseCell& cell, const ChartImage& image, const Monitor& monitor) {
+  constexpr unsigned kLevels = 6;  // trees are not balanced
+  return image_of(cell, image, kLevels, monitor);
 }
 
 }  // namespace nef::planner

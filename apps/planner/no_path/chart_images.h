@@ -10,6 +10,7 @@
 
 #include "apps/planner/orientation/orientation_cells.h"
 #include "apps/planner/proofs/path_proof.h"
+#include "nef/base/monitor.h"
 
 namespace nef::planner {
 
@@ -31,6 +32,6 @@ std::vector<std::optional<ChartImage>> images_of_charts(const PathProof::Claim& 
                                                         const Rational3& reference);
 
 /// The box of poses in a chart that a box in the chart of `image.of` becomes, with all that is below it.
-PathProof::PoseCell image_of(const PathProof::PoseCell& cell, const ChartImage& image);
+PathProof::PoseCell image_of(const PathProof::PoseCell& cell, const ChartImage& image, const Monitor& monitor = {});
 
 }  // namespace nef::planner

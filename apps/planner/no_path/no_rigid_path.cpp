@@ -59,38 +59,85 @@ PathProof::Claim no_path_claim(const MotionChecker& checker, const RotationClaim
   return claim;
 }
 
-NoPathAnswer prove_no_rigid_path(const MotionChecker& checker, const RigidPose& start, const RigidPose& goal,
-                                 const NoPathLimits& limits, const Monitor& monitor) {
-  NoPathAnswer answer;
-  PathProof proof;
-  proof.claim = no_path_claim(checker, {start, goal, {}, {}, {}});
-  const Orientations orientations = Orientations::all();
-  try {
-    const std::vector<Rational3> references = references_of(proof.claim);
-    for (std::size_t i = 0; i < references.size() && answer.cells < limits.max_cells; ++i) {
-      const std::size_t given = (limits.max_cells - answer.cells + 1) / (i + 1 < references.size() ? 2 : 1);
-      std::size_t budget = given;
-      PositionBarrier barrier(proof.claim, orientations, references[i], monitor);
-      const bool found = barrier.find(budget);
-      answer.cells += given - budget;
-      answer.in_question = barrier.in_question();
-      if (!found) continue;
-      proof.cells = barrier.written();
-      if (complaint_about(proof, monitor)) continue;
-      answer.proof = std::move(proof);
-      answer.in_question = 0;
-      return answer;
+class NoPathSearch::State {
+ public:
+  State(const MotionChecker& checker, const RigidPose& start, const RigidPose& goal, const Monitor& monitor)
+      : claim_(no_path_claim(checker, {start, goal, {}, {}, {}})),
+        references_(references_of(claim_)),
+        barriers_(references_.size()),
+        is_done_(references_.size(), false),
+        monitor_(monitor) {}
+
+  NoPathAnswer run(std::size_t max_cells) {
+    NoPathAnswer answer;
+    try {
+      for (std::size_t i = 0; i < references_.size() && cells_ < max_cells && !answer.proof; ++i) {
+        if (is_done_[i]) continue;
+        const bool is_last =
+            std::find(is_done_.begin() + static_cast<std::ptrdiff_t>(i) + 1, is_done_.end(), false) == is_done_.end();
+        look_for(i, (max_cells - cells_ + 1) / (is_last ? 1 : 2), answer);
+      }
+    } catch (const Interrupted&) {
+      // What is in question is known.
     }
-  } catch (const Interrupted&) {
+    answer.cells = cells_;
+    if (!answer.proof) {
+      answer.in_question = in_question();
+      if (barriers_[last_] != nullptr && !is_done_[last_]) answer.cells_left = barriers_[last_]->boxes_left();
+    }
     return answer;
   }
-  return answer;
-}
+
+ private:
+  // A barrier of positions of one reference point, with so many boxes.
+  void look_for(std::size_t i, std::size_t given, NoPathAnswer& answer) {
+    last_ = i;
+    if (barriers_[i] == nullptr) {
+      barriers_[i] = std::make_unique<PositionBarrier>(claim_, orientations_, references_[i], monitor_);
+    }
+    std::size_t budget = given;
+    const bool found = barriers_[i]->find(budget);
+    cells_ += given - budget;
+    is_done_[i] = found || budget > 0;
+    if (!found) return;
+    PathProof proof;
+    proof.claim = claim_;
+    proof.cells = barriers_[i]->take_written();
+    if (!complaint_about(proof, monitor_)) answer.proof = std::move(proof);
+  }
+
+  [[nodiscard]] BarrierInQuestion in_question() const {
+    BarrierInQuestion result;
+    if (references_.empty() || barriers_[last_] == nullptr) return result;
+    result.reference = references_[last_];
+    for (const PositionBox& box : barriers_[last_]->in_question()) {
+      result.boxes.push_back({to_array(box.low), to_array(box.high)});
+    }
+    return result;
+  }
+
+  PathProof::Claim claim_;
+  Orientations orientations_ = Orientations::all();
+  std::vector<Rational3> references_;
+  std::vector<std::unique_ptr<PositionBarrier>> barriers_;  // of each reference point, when it is looked at
+  std::vector<bool> is_done_;                               // nothing is left to be cut
+  std::size_t last_ = 0;
+  std::size_t cells_ = 0;
+  Monitor monitor_;
+};
+
+NoPathSearch::NoPathSearch(const MotionChecker& checker, const RigidPose& start, const RigidPose& goal,
+                           const Monitor& monitor)
+    : state_(std::make_unique<State>(checker, start, goal, monitor)) {}
+
+NoPathSearch::~NoPathSearch() = default;
+
+NoPathAnswer NoPathSearch::run(std::size_t max_cells) { return state_->run(max_cells); }
 
 NoPathAnswer prove_no_rigid_path(const Scene& scene, const NoPathLimits& limits, const Monitor& monitor) {
   const RigidQuestion question = rigid_question_of(scene);
-  return prove_no_rigid_path(MotionChecker::of_scene(with_robot_as_in_its_file(scene, monitor), monitor),
-                             question.start, question.goal, limits, monitor);
+  const MotionChecker checker = MotionChecker::of_scene(with_robot_as_in_its_file(scene, monitor), monitor);
+  return NoPathSearch(checker, question.start, question.goal, monitor).run(limits.max_cells);
 }
 
 }  // namespace nef::planner

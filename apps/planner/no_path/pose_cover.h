@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Are all poses of a box of positions blocked, however the robot is turned?
+// Are all poses of boxes of positions blocked, however the robot is turned?
 #pragma once
 
 #include <cstddef>
@@ -20,23 +20,32 @@ struct OpenPose {
   OrientationBox<double> orientation;  ///< of one point
 };
 
-/// What is known of a box of positions: boxes of poses for each chart that are all blocked, or a pose that is not.
-struct PoseCover {
-  std::vector<PathProof::PoseCell> charts;
-  std::optional<OpenPose> open;
-};
-
 /// Whether a pair overlaps at all positions of the hull of some corners, at the orientations for which the robot is
 /// turned. Then there is a point of both pieces for each corner.
 std::vector<Rational3> common_points(const BlockingPairs& pairs, const BlockingPairs::Pair& pair,
                                      const TurnedRobot& robot, std::span<const Vector3d> corners);
 
-/// Cuts a box of positions and all orientations until each part is blocked by one pair of pieces or beyond a side of
-/// the box. Stops at the first part in the middle of which no pair overlaps. `budget` is how many parts may be made,
-/// and becomes what is left of it; if that is nothing, the middle of the part in question counts as open. A part takes
-/// some ten small programs for each pair that may meet in it; a chart that is the image of another one takes none.
+/// A box of positions all of whose poses are to be blocked.
+struct CoverTask {
+  PositionBox box;
+  std::vector<PathProof::PoseCell>* charts;  ///< becomes the boxes of poses, for each chart
+};
+
+/// What came of covering boxes of positions.
+struct PoseCover {
+  std::vector<bool> is_done;     ///< of each box: all poses are blocked
+  std::optional<OpenPose> open;  ///< one that is not; neither: the budget is used up
+  std::size_t open_task = 0;     ///< the box that has it
+};
+
+/// Cuts boxes of positions and all orientations until each part is blocked by one pair of pieces or beyond a side of
+/// the claim's box, the first box first; of the others only as many parts as fill the threads. Stops when a part is
+/// found in the middle of which no pair overlaps. `budget` is how many parts may be made, and becomes what is left of
+/// it; if that is nothing, another call with the same charts goes on. The result depends on none but the arguments, and
+/// not on the number of threads. A part takes some ten small programs for each pair that may meet in it; a chart that
+/// is the image of another one takes none.
 PoseCover cover_poses(const BlockingPairs& pairs, const Orientations& orientations,
-                      const std::vector<std::optional<ChartImage>>& images, const PositionBox& box, std::size_t& budget,
-                      const Monitor& monitor = {});
+                      const std::vector<std::optional<ChartImage>>& images, std::span<const CoverTask> tasks,
+                      std::size_t& budget, const Monitor& monitor = {});
 
 }  // namespace nef::planner

@@ -11,12 +11,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
-#include "apps/planner/no_path/pose_cover.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/geometry/vectors.h"
 
 namespace nef::planner {
+namespace {
+
+constexpr double kFree = 1e7;  // the effort of what is not blocked
+
+}  // namespace
+
 PositionBarrier::PositionBarrier(const PathProof::Claim& claim, const Orientations& orientations,
                                  const Rational3& reference, const Monitor& monitor)
     : orientations_(orientations),
@@ -26,25 +31,27 @@ PositionBarrier::PositionBarrier(const PathProof::Claim& claim, const Orientatio
       monitor_(monitor),
       graph_(claim, reference, pairs_.reach()) {
   add_samples();
-  graph_.add_root(pairs_.all(), [&](CellId id) { judge(id); });
+  judge(std::array{graph_.add_root(pairs_.all())});
 }
 
 // The corners, the middle and the middles of the octants of each chart that is no image of another one.
 void PositionBarrier::add_samples() {
+  std::vector<std::pair<std::uint32_t, std::array<double, 3>>> points;
   for (std::uint32_t chart = 0; chart < orientations_.charts().size(); ++chart) {
     if (images_[chart]) continue;
-    std::vector<std::array<double, 3>> points{{0, 0, 0}};
+    points.push_back({chart, {0, 0, 0}});
     for (const double far : {1.0, 0.5}) {
       for (std::size_t i = 0; i < (std::size_t{1} << orientations_.dimension()); ++i) {
         std::array<double, 3> point{};
         for (std::size_t k = 0; k < orientations_.dimension(); ++k) point[k] = ((i >> k) & 1) != 0 ? far : -far;
-        points.push_back(point);
+        points.emplace_back(chart, point);
       }
     }
-    for (const std::array<double, 3>& point : points) {
-      const bool is_special = std::fabs(point[0]) != 0.5;
-      samples_.push_back({pairs_.turned({chart, point, point}), is_special ? 0.01 : 1});
-    }
+  }
+  for (const auto& [chart, point] : points) {
+    const bool is_special = std::fabs(point[0]) != 0.5;
+    order_.push_back(static_cast<std::uint32_t>(samples_.size()));
+    samples_.push_back({pairs_.turned({chart, point, point}), is_special ? 0.01 : 1});
   }
 }
 
@@ -56,39 +63,55 @@ double PositionBarrier::depth(const BarrierCell& cell, const TurnedRobot& robot,
 
 // About how many ranges of orientations it takes to show that a position is blocked at all of them; infinite if it is
 // free at one of the samples.
-double PositionBarrier::effort_at(const BarrierCell& cell, const Vector3d& position) {
+double PositionBarrier::effort_at(const BarrierCell& cell, const Vector3d& position, Order& order,
+                                  FreeSamples& free) const {
   double effort = 0;
   double weights = 0;
-  for (std::size_t i = 0; i < samples_.size(); ++i) {
-    const double deep = depth(cell, samples_[i].robot, position);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Sample& sample = samples_[order[i]];
+    const double deep = depth(cell, sample.robot, position);
     if (deep <= pairs_.resolution()) {
-      std::swap(samples_[i], samples_[i / 2]);
+      free.push_back(order[i]);
+      move_forward(order, i);
       return HUGE_VAL;
     }
     const double ranges = std::pow(pairs_.reach() / deep, static_cast<double>(orientations_.dimension()) / 2);
-    effort += samples_[i].weight * ranges;
-    weights += samples_[i].weight;
+    effort += sample.weight * ranges;
+    weights += sample.weight;
   }
   return effort / weights;
 }
 
-void PositionBarrier::judge(CellId id) {
-  monitor_.check_interruption();
-  judged_.resize(std::max(judged_.size(), graph_.size()));
+// Each cell is judged by the samples in the order that is known before, so threads need not wait for each other.
+void PositionBarrier::judge(std::span<const CellId> ids) {
+  judged_.resize(graph_.size());
+  std::vector<FreeSamples> free(ids.size());
+  parallel_for(ids.size(), monitor_, [&](std::size_t i, const Monitor& own) {
+    own.check_interruption();
+    Order order = order_;
+    judge(ids[i], order, free[i]);
+  });
+  for (const FreeSamples& samples : free) {
+    for (const std::uint32_t sample : samples) {
+      move_forward(order_, static_cast<std::size_t>(std::find(order_.begin(), order_.end(), sample) - order_.begin()));
+    }
+  }
+}
+
+void PositionBarrier::judge(CellId id, Order& order, FreeSamples& free) {
   BarrierCell& cell = graph_[id];
   Judged& judged = judged_[id];
   std::erase_if(cell.pairs, [&](const BlockingPairs::Pair& pair) { return !pairs_.may_meet(pair, cell.box); });
-  judged.effort = effort_at(cell, cell.box.middle());
+  judged.effort = effort_at(cell, cell.box.middle(), order, free);
   judged.is_blocked = judged.effort < HUGE_VAL;
   const bool is_small = (cell.box.high - cell.box.low).maxCoeff() < pairs_.reach() / 512;
   const bool is_free = cell.pairs.empty() && (!graph_.is_bounded() || is_zero(reference_));
   cell.is_hopeless = !judged.is_blocked && (is_free || is_small);
-  choose_axis(cell, judged);
+  choose_axis(cell, judged, order, free);
   weigh(id);
 }
 
 void PositionBarrier::weigh(CellId id) {
-  constexpr double kFree = 1e7;
   constexpr double kUnsettled = 4;
   if (graph_[id].is_hopeless) {
     graph_[id].weight = WeightedGraph::kUncuttable;
@@ -102,7 +125,7 @@ void PositionBarrier::weigh(CellId id) {
 
 // The axis along which the effort differs most between the middles of facets and that of the box, and whether it is low
 // everywhere; the longest axis if nothing is blocked.
-void PositionBarrier::choose_axis(BarrierCell& cell, Judged& judged) {
+void PositionBarrier::choose_axis(BarrierCell& cell, Judged& judged, Order& order, FreeSamples& free) const {
   constexpr double kMuchMore = 1.15;
   const double size = (cell.box.high - cell.box.low).maxCoeff();
   judged.is_settled = judged.is_blocked;
@@ -114,7 +137,7 @@ void PositionBarrier::choose_axis(BarrierCell& cell, Judged& judged) {
     for (const bool upper : {false, true}) {
       Vector3d at = cell.box.middle();
       at[axis] = upper ? cell.box.high[axis] : cell.box.low[axis];
-      const double effort = effort_at(cell, at);
+      const double effort = effort_at(cell, at, order, free);
       if (judged.is_blocked && effort > kMuchMore * judged.effort &&
           (effort == HUGE_VAL || width > pairs_.reach() / 16)) {
         judged.is_settled = false;
@@ -128,53 +151,87 @@ void PositionBarrier::choose_axis(BarrierCell& cell, Judged& judged) {
   }
 }
 
-// Covers a box; if a pose in it is open, that is a sample from now on.
-bool PositionBarrier::cover(CellId id, std::size_t& budget) {
-  PoseCover found = cover_poses(pairs_, orientations_, images_, graph_[id].box, budget, monitor_);
-  if (!found.open) {
-    graph_[id].state = BarrierCell::State::kBlocked;
-    graph_[id].blocked = std::move(found.charts);
-    return true;
+// Covers boxes; if a pose in one is open, that is a sample from now on. False if the budget is used up.
+bool PositionBarrier::cover(std::vector<CellId> ids, std::size_t& budget) {
+  // The hardest one first.
+  std::sort(ids.begin(), ids.end(), [&](CellId a, CellId b) { return judged_[a].effort > judged_[b].effort; });
+  std::vector<CoverTask> tasks;
+  for (const CellId id : ids) tasks.push_back({graph_[id].box, &graph_[id].blocked});
+  const PoseCover found = cover_poses(pairs_, orientations_, images_, tasks, budget, monitor_);
+  for (std::size_t i = 0; i < ids.size(); ++i) {
+    if (found.is_done[i]) graph_[ids[i]].state = BarrierCell::State::kBlocked;
   }
+  if (!found.open) return budget > 0;
+  graph_[ids[found.open_task]].blocked.clear();
   if (budget == 0) return false;
-  samples_.insert(samples_.begin(), {pairs_.turned(found.open->orientation), 1});
+  add_open(ids[found.open_task], *found.open, budget);
+  return true;
+}
+
+// A pose in a cell is open: boxes that look blocked are judged anew if it shows that they are not.
+void PositionBarrier::add_open(CellId id, const OpenPose& open, std::size_t& budget) {
+  order_.insert(order_.begin(), static_cast<std::uint32_t>(samples_.size()));
+  samples_.push_back({pairs_.turned(open.orientation), 1});
+  std::vector<CellId> others;
   for (CellId other = 0; other < graph_.size(); ++other) {
-    const BarrierCell& cell = graph_[other];
-    if (cell.state != BarrierCell::State::kOpen || !judged_[other].is_blocked) continue;
-    if (depth(cell, samples_.front().robot, cell.box.middle()) <= pairs_.resolution()) judge(other);
+    if (graph_[other].state == BarrierCell::State::kOpen && judged_[other].is_blocked) others.push_back(other);
   }
+  std::vector<char> is_wrong(others.size(), 0);
+  constexpr std::size_t kCellsAtOnce = 16;
+  parallel_for_ranges(others.size(), kCellsAtOnce, monitor_, [&](std::size_t first, std::size_t last, const Monitor&) {
+    for (std::size_t i = first; i < last; ++i) {
+      const BarrierCell& cell = graph_[others[i]];
+      is_wrong[i] = depth(cell, samples_.back().robot, cell.box.middle()) <= pairs_.resolution() ? 1 : 0;
+    }
+  });
+  std::vector<CellId> wrong;
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    if (is_wrong[i] != 0) wrong.push_back(others[i]);
+  }
+  judge(wrong);
   budget -= std::min(budget, graph_.size() / 4);
   // It is cut towards the open pose.
-  if (judged_[id].is_settled) {
-    judged_[id].is_settled = false;
-    BarrierCell& cell = graph_[id];
-    Eigen::Index axis = 0;
-    ((found.open->position - cell.box.middle()).array().abs() / (cell.box.high - cell.box.low).array()).maxCoeff(&axis);
-    cell.axis = static_cast<std::uint32_t>(axis);
-    weigh(id);
-  }
-  return true;
+  if (!judged_[id].is_settled) return;
+  judged_[id].is_settled = false;
+  BarrierCell& cell = graph_[id];
+  Eigen::Index axis = 0;
+  ((open.position - cell.box.middle()).array().abs() / (cell.box.high - cell.box.low).array()).maxCoeff(&axis);
+  cell.axis = static_cast<std::uint32_t>(axis);
+  weigh(id);
 }
 
 // One round; false if nothing is left to be done.
 bool PositionBarrier::advance(std::size_t& budget) {
-  std::vector<CellId> cells = graph_.cheapest_barrier();
+  const std::vector<CellId> cells = graph_.cheapest_barrier();
   if (cells.empty()) return false;
-  bool any = false;
+  std::vector<CellId> halves;
   for (const CellId id : cells) {
     if (judged_[id].is_settled || budget == 0) continue;
-    graph_.cut(id, [&](CellId half) { judge(half); });
+    for (const CellId half : graph_.cut(id)) halves.push_back(half);
     --budget;
-    any = true;
   }
-  if (any) return budget > 0;
-  // The hardest one first.
-  std::sort(cells.begin(), cells.end(), [&](CellId a, CellId b) { return judged_[a].effort > judged_[b].effort; });
-  for (const CellId id : cells) {
-    if (!cover(id, budget)) return false;
-    if (graph_[id].state != BarrierCell::State::kBlocked) break;
+  judge(halves);
+  if (!halves.empty()) return budget > 0;
+  return cover(cells, budget);
+}
+
+std::optional<std::size_t> PositionBarrier::boxes_left() const {
+  double effort = 0;
+  for (const CellId id : graph_.in_question()) {
+    if (graph_[id].state == BarrierCell::State::kBlocked) continue;
+    if (!judged_[id].is_blocked) return std::nullopt;
+    effort += 1 + judged_[id].effort;
   }
-  return true;
+  if (graph_.in_question().empty() || effort >= kFree) return std::nullopt;
+  return static_cast<std::size_t>(effort);
+}
+
+std::vector<PositionBox> PositionBarrier::in_question() const {
+  std::vector<PositionBox> result;
+  for (const CellId id : graph_.in_question()) {
+    if (graph_[id].state != BarrierCell::State::kBlocked) result.push_back(graph_[id].box);
+  }
+  return result;
 }
 
 bool PositionBarrier::find(std::size_t& budget) {

@@ -4,11 +4,16 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "apps/planner/no_path/barrier_graph.h"
 #include "apps/planner/no_path/blocking_pairs.h"
 #include "apps/planner/no_path/chart_images.h"
+#include "apps/planner/no_path/pose_cover.h"
 #include "apps/planner/proofs/path_proof.h"
 #include "nef/base/monitor.h"
 
@@ -22,16 +27,19 @@ class PositionBarrier {
                   const Monitor& monitor = {});
 
   /// True if a barrier was found; false if there is none, as far as doubles can tell, or if it needs more than `budget`
-  /// boxes, which becomes what is left of it.
+  /// boxes, which becomes what is left of it. In the latter case it may be called again, and goes on.
   bool find(std::size_t& budget);
 
-  /// The boxes of a barrier that was found.
-  [[nodiscard]] PathProof::PoseCells written() const {
-    return graph_.written(reference_, orientations_.charts().size());
+  /// The boxes of a barrier that was found; to be called once, last.
+  [[nodiscard]] PathProof::PoseCells take_written() {
+    return graph_.take_written(reference_, orientations_.charts().size());
   }
 
+  /// The efforts of the boxes of the barrier that was looked at last, if all of it seems to be blocked: a measure of
+  /// how deep pieces overlap there, rather than of how many boxes it takes.
+  [[nodiscard]] std::optional<std::size_t> boxes_left() const;
   /// Boxes of positions in the way that are not known to be blocked.
-  [[nodiscard]] std::size_t in_question() const { return graph_.in_question(); }
+  [[nodiscard]] std::vector<PositionBox> in_question() const;
 
  private:
   using CellId = BarrierGraph::Id;
@@ -43,14 +51,22 @@ class PositionBarrier {
     double effort = 0;        // about how many parts it takes to cover it, if it is blocked
   };
 
+  // The numbers of samples, those first at which a position was free last.
+  using Order = std::vector<std::uint32_t>;
+  // Those at which a position was free while a cell was judged.
+  using FreeSamples = std::vector<std::uint32_t>;
+
   void add_samples();
-  void judge(CellId id);
-  void choose_axis(BarrierCell& cell, Judged& judged);
+  void judge(std::span<const CellId> ids);
+  void judge(CellId id, Order& order, FreeSamples& free);
+  void choose_axis(BarrierCell& cell, Judged& judged, Order& order, FreeSamples& free) const;
   void weigh(CellId id);
+  static void move_forward(Order& order, std::size_t at) { std::swap(order[at], order[at / 2]); }
   [[nodiscard]] double depth(const BarrierCell& cell, const TurnedRobot& robot, const Vector3d& position) const;
-  double effort_at(const BarrierCell& cell, const Vector3d& position);
+  double effort_at(const BarrierCell& cell, const Vector3d& position, Order& order, FreeSamples& free) const;
   bool advance(std::size_t& budget);
-  bool cover(CellId id, std::size_t& budget);
+  bool cover(std::vector<CellId> ids, std::size_t& budget);
+  void add_open(CellId id, const OpenPose& open, std::size_t& budget);
 
   const Orientations& orientations_;
   Rational3 reference_;
@@ -62,7 +78,8 @@ class PositionBarrier {
     TurnedRobot robot;
     double weight = 1;
   };
-  std::vector<Sample> samples_;  // those first at which a position was free last
+  std::vector<Sample> samples_;
+  Order order_;
   BarrierGraph graph_;
   std::vector<Judged> judged_;
 };

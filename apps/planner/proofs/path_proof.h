@@ -116,6 +116,9 @@ struct PathProof {
     /// kBlocked: for each corner of the box of positions a point of the obstacle that is inside the inner piece (see
     /// mixed_rotations) there. Bit k of a corner's number: the upper end of coordinate k.
     std::vector<Rational3> common;
+    /// kBlocked: none, or for each parameter of the chart how far these points drift while it goes from the middle of
+    /// the box to its upper end. They are in the obstacle, and inside the robot, all the way.
+    std::vector<Rational3> drift;
     std::uint32_t side = 0;  ///< kBeyond: 0 to 2 the lower side of x, y, z, 3 to 5 the upper one
   };
   /// Boxes of poses that show that there is no path: no box on the side of the start and one on that of the goal have a

@@ -26,7 +26,9 @@ json pose_cell_json(const PathProof::PoseCell& cell) {
     case CellKind::kBlocked: {
       json common = json::array();
       for (const Rational3& point : cell.common) common.push_back(exact_json(point));
-      return {{"robot", cell.robot}, {"obstacle", cell.obstacle}, {"common", std::move(common)}};
+      json result{{"robot", cell.robot}, {"obstacle", cell.obstacle}, {"common", std::move(common)}};
+      for (const Rational3& way : cell.drift) result["drift"].push_back(exact_json(way));
+      return result;
     }
     default:
       return {{"axis", cell.axis},
@@ -57,7 +59,13 @@ PathProof::PoseCell read_pose_cell(const JsonReader& reader) {
     cell.halves.reserve(2);  // nothing is copied
     for (PathProof::PoseCell& half : halves) cell.halves.push_back(std::move(half));
   } else {
-    reader.require_keys({"robot", "obstacle", "common"});
+    if (reader.has("drift")) {
+      reader.require_keys({"robot", "obstacle", "common", "drift"});
+      const auto drift = reader["drift"].exactly<3>(proof_point);
+      cell.drift.assign(drift.begin(), drift.end());
+    } else {
+      reader.require_keys({"robot", "obstacle", "common"});
+    }
     cell.kind = CellKind::kBlocked;
     cell.robot = proof_index(reader["robot"]);
     cell.obstacle = proof_index(reader["obstacle"]);

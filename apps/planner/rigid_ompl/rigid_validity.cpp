@@ -7,6 +7,7 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "apps/planner/rigid_search/pose_metric.h"
 #include "nef/base/error.h"
 
 namespace nef::planner {
@@ -51,6 +52,17 @@ std::optional<RigidPose> pose_of(const ob::StateSpace& space, const ob::State* s
     return pose_of_se3(*state->as<ob::SE3StateSpace::StateType>());
   }
   return pose_of_se2(*state->as<ob::SE2StateSpace::StateType>());
+}
+
+void set_pose(const RigidPose& pose, ob::State* state) {
+  auto& to = *state->as<ob::SE3StateSpace::StateType>();
+  to.setXYZ(nearest_double(pose.position[0]), nearest_double(pose.position[1]), nearest_double(pose.position[2]));
+  const Eigen::Quaterniond q = PoseMetric::rounded(pose.quaternion);
+  ob::SO3StateSpace::StateType& rotation = to.rotation();
+  rotation.w = q.w();
+  rotation.x = q.x();
+  rotation.y = q.y();
+  rotation.z = q.z();
 }
 
 RigidStateValidityChecker::RigidStateValidityChecker(const ob::SpaceInformationPtr& si,

@@ -21,6 +21,9 @@ namespace nef::planner {
    to cosine and sine of half the angle. */
 std::optional<RigidPose> pose_of(const ompl::base::StateSpace& space, const ompl::base::State* state);
 
+/** \brief Sets a state of an SE3StateSpace to a pose, rounded: the quaternion of a state has length 1. */
+void set_pose(const RigidPose& pose, ompl::base::State* state);
+
 /** \brief Exact for the numbers that a state consists of: which states are valid does not depend on rounding. The space
     must be an ompl::base::SE3StateSpace, or an SE2StateSpace. A pose out of the checker's box, or of the space's
    bounds, is not valid. Thread-safe. */

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/planner/rigid_ompl/se3_planning.h"
 
-#include <ompl/base/spaces/SE3StateSpace.h>
-
 #include "apps/planner/ompl/position_bounds.h"
 #include "apps/planner/rigid_ompl/rigid_validity.h"
-#include "apps/planner/rigid_search/pose_metric.h"
 
 namespace nef::planner {
 
@@ -13,27 +10,16 @@ namespace ob = ompl::base;
 
 namespace {
 
-std::shared_ptr<ob::SE3StateSpace> space_of(const Scene& scene) {
-  auto space = std::make_shared<ob::SE3StateSpace>();
+std::shared_ptr<SlicedSpace> space_of(const Scene& scene, std::shared_ptr<const MotionChecker> checker) {
+  auto space = std::make_shared<SlicedSpace>(std::make_shared<SlicePool>(scene, std::move(checker)));
   space->setBounds(position_bounds(scene));
   return space;
 }
 
 }  // namespace
 
-void set_pose(const RigidPose& pose, ob::State* state) {
-  auto& to = *state->as<ob::SE3StateSpace::StateType>();
-  to.setXYZ(nearest_double(pose.position[0]), nearest_double(pose.position[1]), nearest_double(pose.position[2]));
-  const Eigen::Quaterniond q = PoseMetric::rounded(pose.quaternion);
-  ob::SO3StateSpace::StateType& rotation = to.rotation();
-  rotation.w = q.w();
-  rotation.x = q.x();
-  rotation.y = q.y();
-  rotation.z = q.z();
-}
-
 SE3Planning::SE3Planning(const Scene& scene, std::shared_ptr<const MotionChecker> checker)
-    : ompl::geometric::SimpleSetup(space_of(scene)), question_(rigid_question_of(scene)) {
+    : ompl::geometric::SimpleSetup(space_of(scene, checker)), question_(rigid_question_of(scene)) {
   setStateValidityChecker(std::make_shared<RigidStateValidityChecker>(si_, checker));
   si_->setMotionValidator(std::make_shared<RigidMotionValidator>(si_, std::move(checker)));
   ob::ScopedState<> start(si_);

@@ -10,14 +10,13 @@
 
 #include "apps/planner/rigid/motion_checker.h"
 #include "apps/planner/rigid/rigid_question.h"
+#include "apps/planner/rigid_ompl/sliced_space.h"
 
 namespace nef::planner {
 
-/** \brief Sets a state of an SE3StateSpace to a pose, rounded: the quaternion of a state has length 1. */
-void set_pose(const RigidPose& pose, ompl::base::State* state);
-
-/** \brief A SimpleSetup for the question of a scene whose robot turns freely: OMPL's SE3StateSpace, exact validity of
-    states, certified motions, start and goal. Any planner of OMPL may be set; without one OMPL chooses.
+/** \brief A SimpleSetup for the question of a scene whose robot turns freely: OMPL's SE3StateSpace, with samples from
+    slices as well, exact validity of states, certified motions, start and goal. Any planner of OMPL may be set; without
+    one OMPL chooses.
 
     States are doubles, so the start and the goal that a planner sees are rounded: a robot that touches something there
     may collide after rounding, and then the planner finds nothing: ask getSpaceInformation()->isValid. */
@@ -28,6 +27,9 @@ class SE3Planning : public ompl::geometric::SimpleSetup {
 
   /** \brief The way-points of the solution that there must be, the exact start and goal of the scene at its ends. */
   std::vector<RigidPose> getSolutionPoses() const;
+
+  /** \brief The state space. */
+  SlicedSpace& space() const { return *static_cast<SlicedSpace*>(si_->getStateSpace().get()); }
 
  private:
   RigidQuestion question_;

@@ -15,7 +15,8 @@
 namespace nef::planner {
 
 /// Two trees of certified motions (RRT-Connect, Kuffner and LaValle 2000). Quick where there is room, and for bodies of
-/// many pieces; it does not find narrow places. The same in every run: random numbers have a fixed seed.
+/// many pieces; it does not find narrow places. The same in every run, on any number of threads: random numbers have a
+/// fixed seed, and samples that are tried at once do not know of each other.
 class CertifiedTrees {
  public:
   /// The checker must outlive it. Start and goal must be free.
@@ -29,20 +30,40 @@ class CertifiedTrees {
   [[nodiscard]] std::size_t samples() const { return samples_; }
 
  private:
-  struct Node {
-    RigidPose pose;
+  // Rounded, as the search for the nearest node reads all of them.
+  struct Place {
     Vector3d position;
     Eigen::Quaterniond rotation;
-    std::size_t parent;
   };
-  using Tree = std::vector<Node>;
+  struct Tree {
+    std::vector<RigidPose> poses;
+    std::vector<Place> places;
+    std::vector<std::size_t> parents;  // the root is its own
+  };
   enum class Step : std::uint8_t { kBlocked, kGone, kArrived };
 
+  // A random pose, and the tree that grows towards it.
+  struct Sample {
+    Vector3d position;
+    Eigen::Quaterniond rotation;
+    std::size_t tree = 0;
+  };
+  // What a sample adds to its tree and to the other one: poses one after another, from a node.
+  struct Trial {
+    std::size_t from = 0;
+    std::vector<RigidPose> poses;
+    std::size_t other_from = 0;
+    std::vector<RigidPose> other_poses;
+    bool arrives = false;  // both end in the same pose
+  };
+
   static void add(const RigidPose& pose, std::size_t parent, Tree& tree);
+  static void add(const std::vector<RigidPose>& poses, std::size_t from, Tree& tree);
   [[nodiscard]] std::size_t nearest(const Tree& tree, const Vector3d& position,
                                     const Eigen::Quaterniond& rotation) const;
-  Step extend(Tree& tree, std::size_t from, const Vector3d& position, const Eigen::Quaterniond& rotation,
-              const RigidPose* arrival);
+  [[nodiscard]] std::size_t samples_at_once() const;
+  Step extend(const RigidPose& from, const Sample& to, const RigidPose* arrival, std::vector<RigidPose>& poses) const;
+  [[nodiscard]] Trial tried(const Sample& sample) const;
   [[nodiscard]] std::vector<RigidPose> path() const;
 
   const MotionChecker& checker_;

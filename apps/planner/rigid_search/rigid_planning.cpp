@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Phases of the three searches, each of twice the size of the one before. Slices cost a Minkowski sum each, so of
-// scenes with many pieces fewer are made in a phase. A proof that takes few boxes is cheaper than the first slices, so
-// it is looked for before them. The sizes do not depend on times, so neither does the answer.
+// scenes with many pieces fewer are made in a phase, and more random poses are drawn before the first. A proof that
+// takes few boxes is cheaper than the first slices, so it is looked for before them; a turn of the search for a proof
+// is longer while it looks as if there was one. The sizes do not depend on times, so neither does the answer.
 #include "apps/planner/rigid_search/rigid_planning.h"
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include <limits>
 
 #include "apps/planner/free_space/collision.h"
-#include "apps/planner/no_path/no_rigid_path.h"
 #include "apps/planner/rigid_search/certified_trees.h"
 #include "apps/planner/rigid_search/shorten_poses.h"
 #include "apps/planner/rigid_search/slice_search.h"
@@ -20,11 +20,19 @@
 namespace nef::planner {
 namespace {
 
-constexpr std::size_t kFirstSamples = 500;
+constexpr std::size_t kFirstSamples = 500;    // of a scene of few pieces
+constexpr std::size_t kPairsForSamples = 50;  // as many again for each so many pairs of pieces,
+constexpr std::size_t kMostTimes = 64;        // at most so often
 constexpr std::size_t kFirstSlices = 40;
 constexpr std::size_t kFewBoxes = 2500;  // before the first slices
-constexpr std::size_t kFirstBoxes = 10000;
+constexpr std::size_t kFirstBoxes = 20000;
+constexpr std::size_t kFewLeft = 160;      // as it is estimated where there is a proof: see NoPathAnswer::cells_left
+constexpr std::size_t kLongestTurn = 3;    // times as long as planned
 constexpr std::size_t kLightPairs = 2000;  // pairs of pieces; scenes with more get fewer slices
+
+std::size_t pairs_of(const MotionChecker& checker) {
+  return checker.robot().pieces().size() * checker.obstacles().pieces().size();
+}
 
 class RigidPlanning {
  public:
@@ -45,32 +53,43 @@ class RigidPlanning {
  private:
   void search() {
     trees_.emplace(question_, checker_);
-    const std::size_t pairs =
-        std::max<std::size_t>(checker_.robot().pieces().size() * checker_.obstacles().pieces().size(), 1);
     std::size_t samples = 0;
     std::size_t slices = 0;
     for (std::size_t size = 1; trees_->samples() < limits_.max_samples || !slices_are_done_ || !proofs_are_done_;
          size *= 2) {
-      samples = std::min(samples + kFirstSamples * size, limits_.max_samples);
+      const RigidTurn turn = RigidTurn::of(checker_, size);
+      samples = std::min(samples + turn.samples, limits_.max_samples);
       if (const auto path = trees_->run(samples, monitor_)) {
         if (is_answer(*path)) return;
       }
       count();
-      if (size == 1 && pairs <= kLightPairs && search_proof(std::min(kFewBoxes, limits_.max_boxes))) return;
-      const std::size_t some = kFirstSlices * size * kLightPairs / std::max(pairs, kLightPairs);
-      slices = std::min(slices + some, limits_.max_slices);
+      if (size == 1 && is_light(checker_) && search_proof(std::min(kFewBoxes, limits_.max_boxes))) return;
+      slices = std::min(slices + turn.slices, limits_.max_slices);
       if (search_slices(slices)) return;
       count();
       if (search_proof(std::min(kFirstBoxes * size, limits_.max_boxes))) return;
     }
   }
 
-  // True if there is no path. More boxes help only where the attempt before has used all that it had.
+  // True if there is no path.
   bool search_proof(std::size_t boxes) {
     if (proofs_are_done_) return false;
     NoPathAnswer found;
-    if (boxes > 0) found = prove_no_rigid_path(checker_, question_.start, question_.goal, {boxes}, monitor_);
+    if (boxes > 0) {
+      if (proofs_ == nullptr) {
+        proofs_ = std::make_unique<NoPathSearch>(checker_, question_.start, question_.goal, monitor_);
+      }
+      found = proofs_->run(boxes);
+      // It goes on beyond its turn if it looks as if there was a proof. At once: where a search stops, some boxes are
+      // lost.
+      const std::size_t most = std::min(kLongestTurn * boxes, limits_.max_boxes);
+      if (!found.proof && found.cells >= boxes && boxes < most && found.cells_left && *found.cells_left <= kFewLeft) {
+        boxes = most;
+        found = proofs_->run(boxes);
+      }
+    }
     answer_.boxes = found.cells;
+    answer_.in_question = std::move(found.in_question);
     proofs_are_done_ = found.proof || found.cells < boxes || boxes == limits_.max_boxes;
     if (!found.proof) return false;
     answer_.status = RigidAnswer::Status::kInfeasible;
@@ -100,6 +119,7 @@ class RigidPlanning {
     CertifiedPath certified = certify(checker_, path);
     if (certified.status != MotionVerdict::Status::kFree) return false;
     answer_.status = RigidAnswer::Status::kPath;
+    answer_.in_question = {};
     answer_.path = std::move(path);
     answer_.certified = std::move(certified);
     count();
@@ -118,12 +138,21 @@ class RigidPlanning {
   const Monitor& monitor_;
   std::optional<CertifiedTrees> trees_;
   std::unique_ptr<SliceSearch> slices_;
+  std::unique_ptr<NoPathSearch> proofs_;
   bool slices_are_done_ = false;
   bool proofs_are_done_ = false;
   RigidAnswer answer_;
 };
 
 }  // namespace
+
+bool is_light(const MotionChecker& checker) { return pairs_of(checker) <= kLightPairs; }
+
+RigidTurn RigidTurn::of(const MotionChecker& checker, std::size_t size) {
+  const std::size_t pairs = pairs_of(checker);
+  return {kFirstSamples * std::clamp<std::size_t>(pairs / kPairsForSamples, 1, kMostTimes) * size,
+          kFirstSlices * size * kLightPairs / std::max(pairs, kLightPairs)};
+}
 
 RigidLimits RigidLimits::of(std::optional<std::size_t> max_slices, bool time_is_limited) {
   RigidLimits limits;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "apps/planner/no_path/no_rigid_path.h"
 #include "apps/planner/path/answer.h"
 #include "apps/planner/proofs/path_proof.h"
 #include "apps/planner/rigid/certified_path.h"
@@ -17,13 +18,26 @@ namespace nef::planner {
 
 /// How far a search goes.
 struct RigidLimits {
-  std::size_t max_slices = 2000;    ///< exact free spaces at rotations
-  std::size_t max_samples = 32000;  ///< random poses
-  std::size_t max_boxes = 50000;    ///< boxes of poses in a proof that there is no path
+  std::size_t max_slices = 2000;                     ///< exact free spaces at rotations
+  std::size_t max_samples = 32000;                   ///< random poses
+  std::size_t max_boxes = NoPathLimits().max_cells;  ///< boxes of poses in a proof that there is no path
 
   /// With another number of slices, and of the others in proportion; without a number there are no limits if the time
   /// is limited.
   static RigidLimits of(std::optional<std::size_t> max_slices, bool time_is_limited);
+};
+
+/// Whether a scene has so few pairs of pieces that slices, Minkowski sums of all of them, do not take long.
+bool is_light(const MotionChecker& checker);
+
+/// How much random poses and slices do in a turn of find_rigid_path.
+struct RigidTurn {
+  std::size_t samples = 0;
+  std::size_t slices = 0;
+
+  /// `size`: 1 for the first turn, twice as much for each one after it. Of scenes with many pieces fewer slices are
+  /// made, as they take longer, or none, and more random poses are drawn.
+  static RigidTurn of(const MotionChecker& checker, std::size_t size = 1);
 };
 
 /// What is known of a question about a rigid body.
@@ -41,7 +55,9 @@ struct RigidAnswer {
   std::optional<Collision> collision;
   std::size_t samples = 0;  ///< random poses that were drawn
   std::size_t slices = 0;   ///< exact free spaces that were computed
-  std::size_t boxes = 0;    ///< boxes of poses in the last attempt to prove that there is no path
+  std::size_t boxes = 0;    ///< boxes of poses that were made to prove that there is no path
+  /// kUndecided: where the barrier that a proof would need may have a hole.
+  BarrierInQuestion in_question;
 };
 
 /// The answer if the start or the goal is not free, else nothing. `checker` must be that of the scene.

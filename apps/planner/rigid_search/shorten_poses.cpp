@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "apps/planner/rigid/certified_path.h"
+#include "apps/planner/rigid_search/first_true.h"
 #include "apps/planner/rigid_search/pose_metric.h"
 #include "nef/base/interruption.h"
 
@@ -35,12 +36,12 @@ class Shortening {
   void leave_out() {
     constexpr std::size_t kFarthest = 48;
     for (std::size_t i = 0; i + 2 < path_.size(); ++i) {
-      for (std::size_t j = std::min(path_.size() - 1, i + kFarthest); j > i + 1; --j) {
-        if (!is_free(path_[i], path_[j])) continue;
-        const auto begin = path_.begin() + static_cast<std::ptrdiff_t>(i) + 1;
-        path_.erase(begin, path_.begin() + static_cast<std::ptrdiff_t>(j));
-        break;
-      }
+      const std::size_t farthest = std::min(path_.size() - 1, i + kFarthest);
+      const std::size_t back = first_true(farthest - i - 1, monitor_, [&](std::size_t k, const Monitor&) {
+        return moves_freely(checker_, path_[i], path_[farthest - k]);
+      });
+      const auto begin = path_.begin() + static_cast<std::ptrdiff_t>(i) + 1;
+      path_.erase(begin, path_.begin() + static_cast<std::ptrdiff_t>(farthest - back));
     }
   }
 

@@ -73,7 +73,7 @@ Slices::Slices(const Scene& scene, const Monitor& monitor) : scene_(scene) {
   }
 }
 
-Quaternion Slices::shared(const Quaternion& rotation) const {
+Quaternion Slices::least_alike(const Quaternion& rotation) const {
   Quaternion smallest = rotation;
   for (const Quaternion& symmetry : symmetries_) {
     smallest = std::min(smallest, canonical(product(rotation, symmetry)));
@@ -81,11 +81,21 @@ Quaternion Slices::shared(const Quaternion& rotation) const {
   return smallest;
 }
 
+Slices::Entry& Slices::entry_of(const Quaternion& rotation) {
+  const std::scoped_lock lock(mutex_);
+  Entry*& entry = entries_[rotation];
+  if (entry == nullptr) {
+    const Quaternion least = least_alike(rotation);
+    entry = &slices_[least];
+    entry->rotation = least;
+  }
+  return *entry;
+}
+
 const Slice& Slices::at(const Quaternion& rotation, const Monitor& monitor) {
-  const Quaternion key = shared(rotation);
-  const auto known = slices_.find(key);
-  if (known != slices_.end()) return known->second;
-  return slices_.emplace(key, made_at(key, monitor)).first->second;
+  Entry& entry = entry_of(rotation);
+  std::call_once(entry.is_made, [&] { entry.slice = made_at(entry.rotation, monitor); });
+  return entry.slice;
 }
 
 Slice Slices::made_at(const Quaternion& rotation, const Monitor& monitor) const {
@@ -96,7 +106,7 @@ Slice Slices::made_at(const Quaternion& rotation, const Monitor& monitor) const 
   const FreeSpace& free = *slice.free;
   if (free.complex().vertex_count() == 0) {  // all of space or nothing
     const CellId all = free.locate(ExactPoint(Rational3{}));
-    if (free.is_free(all)) slice.components.push_back({free.component(all), {Rational3{}}, {Vector3d(0, 0, 0)}});
+    if (free.is_free(all)) slice.components.push_back({free.component(all), {Rational3{}}, {Vector3d(0, 0, 0)}, {}});
     return slice;
   }
   free.build_roadmap(monitor);
@@ -108,7 +118,7 @@ Slice Slices::made_at(const Quaternion& rotation, const Monitor& monitor) const 
     if (cell == kNoCell || leaves[zone].dimension != 3 || free.cells().dimension(cell) != 3) continue;
     if (free.is_free(cell)) zones[free.component(cell)].push_back(zone);
   }
-  for (const auto& [component, members] : zones) {
+  for (auto& [component, members] : zones) {
     SliceComponent& made = slice.components.emplace_back();
     made.component = component;
     constexpr std::size_t kMostZones = 256;
@@ -123,6 +133,7 @@ Slice Slices::made_at(const Quaternion& rotation, const Monitor& monitor) const 
       made.points.push_back(points[i]);
       made.rounded.push_back(rounded[i]);
     }
+    made.zones = std::move(members);
   }
   return slice;
 }

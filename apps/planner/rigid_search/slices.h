@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <vector>
 
 #include "apps/planner/free_space/free_space.h"
@@ -21,6 +23,7 @@ struct SliceComponent {
   std::uint32_t component = 0;  ///< in the free space
   std::vector<Rational3> points;
   std::vector<Vector3d> rounded;  ///< the same in doubles
+  std::vector<ZoneId> zones;  ///< of the roadmap, three-dimensional, that it consists of; none if it is all of space
 };
 
 /// The free space at one rotation.
@@ -35,26 +38,36 @@ struct Slice {
 
 /// All slices of a scene that were asked for. Rotations that place the robot alike, since it is symmetric, share one.
 /// Of the symmetries only those are found that permute the coordinate axes (24 rotations about the reference point).
+/// Several threads may ask at once; if they ask for the same slice, one makes it, and the others wait.
 class Slices {
  public:
   explicit Slices(const Scene& scene, const Monitor& monitor = {});
 
   /// The slice of a canonical quaternion (rotations.h). A Minkowski sum of all obstacles with the robot, and a roadmap.
   const Slice& at(const Quaternion& rotation, const Monitor& monitor);
-  /// How many were made.
-  [[nodiscard]] std::size_t made() const { return slices_.size(); }
-  /// Whether the slice of a rotation is there already.
-  [[nodiscard]] bool has(const Quaternion& rotation) const { return slices_.count(shared(rotation)) > 0; }
+  /// The least of the canonical quaternions whose slice is that of a rotation.
+  [[nodiscard]] const Quaternion& shared(const Quaternion& rotation) { return entry_of(rotation).rotation; }
   /// Rotations of the robot, as it is in its own file, onto itself: at least (1, 0, 0, 0).
   [[nodiscard]] const std::vector<Quaternion>& symmetries() const { return symmetries_; }
 
  private:
-  [[nodiscard]] Quaternion shared(const Quaternion& rotation) const;
+  // A slice, once it is made, and the least rotation of those that share it.
+  struct Entry {
+    Quaternion rotation;
+    std::once_flag is_made;
+    Slice slice;
+  };
+
+  Entry& entry_of(const Quaternion& rotation);
+  [[nodiscard]] Quaternion least_alike(const Quaternion& rotation) const;
+
   [[nodiscard]] Slice made_at(const Quaternion& rotation, const Monitor& monitor) const;
 
   Scene scene_;
   std::vector<Quaternion> symmetries_;
-  std::map<Quaternion, Slice> slices_;
+  std::mutex mutex_;  // of the tables, not of the slices
+  std::map<Quaternion, Entry> slices_;
+  std::map<Quaternion, Entry*> entries_;  // of all rotations that were asked for
 };
 
 }  // namespace nef::planner

@@ -139,9 +139,10 @@ std::array<Rational, 4> quaternion_of(const Rotation& rotation) {
 Rational degrees_of(const Rational& radians) { return exact_rational(nearest_double(radians) * 180 / M_PI); }
 
 // A rotation that both states share is applied to the robot once; else the scene is one of a robot that turns.
-void apply_rotations(const TwoRotations& rotations, const std::string& path, Scene& scene, const Monitor& monitor) {
+void apply_rotations(const TwoRotations& rotations, CfgRotations allowed, const std::string& path, Scene& scene,
+                     const Monitor& monitor) {
   scene.quaternions = {quaternion_of(rotations.start), quaternion_of(rotations.goal)};
-  if (!rotations.one_axis()) {
+  if (allowed == CfgRotations::kAll || !rotations.one_axis()) {
     scene.turns_freely = true;
     return;
   }
@@ -168,7 +169,18 @@ std::string beside(const std::string& path, const std::string& file) {
 
 }  // namespace
 
-Scene read_cfg(const std::string& path, const MeshOptions& meshes) { return parse_cfg(read_file(path), path, meshes); }
+Scene read_cfg(const std::string& path, const MeshOptions& meshes, CfgRotations rotations) {
+  return parse_cfg(read_file(path), path, meshes, rotations);
+}
+
+Scene freely_turning_scene(const std::string& path, const MeshOptions& meshes) {
+  if (lower_extension(path) != "cfg") {
+    throw InputError(path +
+                     ": only the robots of .cfg files are made to turn freely; in a scene (.json) write "
+                     "\"rotation\": \"SO(3)\"");
+  }
+  return read_cfg(path, meshes, CfgRotations::kAll);
+}
 
 std::vector<std::string> files_of_cfg(const std::string& text, const std::string& path) {
   const ProblemKeys keys(text, path);
@@ -179,7 +191,7 @@ std::vector<std::string> files_of_cfg(const std::string& text, const std::string
   return files;
 }
 
-Scene parse_cfg(const std::string& text, const std::string& path, const MeshOptions& meshes) {
+Scene parse_cfg(const std::string& text, const std::string& path, const MeshOptions& meshes, CfgRotations rotations) {
   const Monitor& monitor = meshes.monitor;
   const ProblemKeys keys(text, path);
   Scene scene;
@@ -194,7 +206,7 @@ Scene parse_cfg(const std::string& text, const std::string& path, const MeshOpti
     for (Rational& value : mean) value = -value;
     scene.robot = transform(scene.robot, AffineMap::translate(mean), monitor);
   }
-  apply_rotations(rotations_of(keys, path), path, scene, monitor);
+  apply_rotations(rotations_of(keys, path), rotations, path, scene, monitor);
   scene.obstacles.push_back(
       closure(read_shape_file(beside(path, keys.text("world")), meshes, &scene.messages), monitor));
   scene.obstacle_names.push_back(keys.text("world"));
@@ -203,7 +215,8 @@ Scene parse_cfg(const std::string& text, const std::string& path, const MeshOpti
   if (!scene.turns_freely) {  // else whoever asks for a path is refused, and told why
     const char* motions = scene.rotation ? ": paths are searched for a robot that translates and turns about one axis"
                                          : ": paths are searched for a robot that translates and keeps its orientation";
-    scene.messages.push_back(path + motions + "; OMPL.app's robots turn freely");
+    scene.messages.push_back(path + motions +
+                             "; OMPL.app's robots turn freely (--turn-freely, turn_freely=True in Python)");
   }
   if (keys.has_any("volume.")) {
     scene.box = {keys.point("volume.min"), keys.point("volume.max")};

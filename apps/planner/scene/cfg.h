@@ -12,7 +12,8 @@ namespace nef::planner {
 
 /// As read_cfg, from a text; `path` is what messages call it, and files are named from its folder on. Throws
 /// InputError.
-Scene parse_cfg(const std::string& text, const std::string& path, const MeshOptions& meshes = scene_meshes());
+Scene parse_cfg(const std::string& text, const std::string& path, const MeshOptions& meshes = scene_meshes(),
+                CfgRotations rotations = CfgRotations::kOfEnds);
 
 /// The files that such a text names, of those that it has: robot and world. Throws InputError for a line that is none.
 std::vector<std::string> files_of_cfg(const std::string& text, const std::string& path);

@@ -45,7 +45,7 @@ struct Scene {
   /// zero. For OMPL.app problems and robots that turn freely.
   std::optional<std::array<std::array<Rational, 4>, 2>> quaternions;
   /// The robot may turn about all axes (SO(3)): in JSON by its key, in an OMPL.app problem if start and goal are turned
-  /// about different axes. `rotation` is nothing then.
+  /// about different axes, or if asked for. `rotation` is nothing then.
   bool turns_freely = false;
   ContactRule contact = ContactRule::kAllow;
   Messages messages;  ///< what was done to the input
@@ -94,13 +94,24 @@ Scene read_scene(const std::string& path, const MeshOptions& meshes = scene_mesh
 Scene parse_scene(const std::string& text, const std::string& folder, const std::string& name,
                   const MeshOptions& meshes = scene_meshes());
 
+/// Which rotations the robot of an OMPL.app problem may have on its way.
+enum class CfgRotations : std::uint8_t {
+  kOfEnds,  ///< those that lead from start to goal: none, about one axis, or all
+  kAll      ///< all, as in OMPL.app
+};
+
 /// An OMPL.app problem: [problem] robot, world, start.*, goal.*, volume.*. If the rotations of start and goal are the
 /// same, that one is applied to the robot once, and answers hold for translations at that orientation, as a message
-/// says; if they differ about one axis, the robot may turn about that, by any angle; if the axes differ, too, the robot
-/// turns freely. The robot's reference point (also the centre of rotation) is the mean of its vertices as OMPL.app
-/// computes it, unless `robot.origin = mesh`; our own keys are `contact` and exact numbers such as 1/3. A mesh that
-/// bounds no solid is what meaning_of (nearly_closed.h) says.
-Scene read_cfg(const std::string& path, const MeshOptions& meshes = scene_meshes());
+/// says; if they differ about one axis, the robot may turn about that, by any angle; if the axes differ, too, or with
+/// CfgRotations::kAll, the robot turns freely. The robot's reference point (also the centre of rotation) is the mean of
+/// its vertices as OMPL.app computes it, unless `robot.origin = mesh`; our own keys are `contact` and exact numbers
+/// such as 1/3. A mesh that bounds no solid is what meaning_of (nearly_closed.h) says.
+Scene read_cfg(const std::string& path, const MeshOptions& meshes = scene_meshes(),
+               CfgRotations rotations = CfgRotations::kOfEnds);
+
+/// read_cfg with all rotations. Throws InputError for another file than .cfg: a scene in JSON says itself how its robot
+/// may turn.
+Scene freely_turning_scene(const std::string& path, const MeshOptions& meshes = scene_meshes());
 
 /// What of an obstacle the robot may reach, however it is turned about its reference point: all of a bounded one, else
 /// what is near the scene's box, cut far enough off that the cuts stay away from the robot. Throws InputError, which

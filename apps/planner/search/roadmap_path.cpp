@@ -74,10 +74,12 @@ class Search {
   }
 
   // Both ends lie in the closure of one zone, which is convex. The segment between them may run along its boundary,
-  // which need not be free; one through a point inside the zone does not.
+  // which need not be free; one through a point inside the zone does not. A zone without portals holds both ends
+  // inside.
   void append(std::vector<Rational3>& points, const Rational3& next, ZoneId zone) {
     if (points.back() == next) return;
-    if (clearance_ || !segment_allowed(free_, filter_, points.back(), next)) {
+    const bool may_touch = clearance_ && !roadmap_.portals_of(zone).empty();
+    if (may_touch || !segment_allowed(free_, filter_, points.back(), next)) {
       const Rational3 inside = roadmap_.interior_point(zone);
       if (inside != next && inside != points.back()) points.push_back(inside);
     }

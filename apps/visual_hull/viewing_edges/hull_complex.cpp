@@ -212,15 +212,11 @@ nef::VertexRecord items_of(const std::vector<nef::Complex>& parts) {
   return sum;
 }
 
-// Of coordinates of a vertex, on average.
+// Of coordinates.
 std::size_t limbs_of(const std::vector<nef::Complex>& parts) {
   std::size_t limbs = 0;
-  std::size_t vertices = 1;
-  for (const nef::Complex& part : parts) {
-    limbs += part.points.limbs();
-    vertices += part.vertex_count();
-  }
-  return limbs / vertices + 1;
+  for (const nef::Complex& part : parts) limbs += part.points.limbs();
+  return limbs;
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ void ResultAssembly::reserve(ComplexBuilder& result) const {
     vertices += run.vertices.count;
     size.advance(run.from->vertices[run.vertices.first], run.from->vertices[run.vertices.first + run.vertices.count]);
   }
-  result.reserve(vertices, size, operands_[0].complex().points.limbs_per_point());
+  result.reserve(vertices, size, operands_[0].complex().points.limbs());
 }
 
 // By common name; not zero for those that are used.

@@ -66,6 +66,9 @@ class FacetTable {
     return facet;
   }
   [[nodiscard]] FacetSides sides_of(FacetId id) const { return sides_[rows_[id.index()].sides]; }
+  /// What sides_of() gives, each at least once, and which of these it gives for a facet.
+  [[nodiscard]] std::span<const FacetSides> kinds() const { return sides_; }
+  [[nodiscard]] std::uint32_t kind(FacetId id) const { return rows_[id.index()].sides; }
   [[nodiscard]] PlaneId plane(FacetId id) const { return rows_[id.index()].plane; }
   [[nodiscard]] Iterator begin() const { return {*this, 0}; }
   [[nodiscard]] Iterator end() const { return {*this, size()}; }

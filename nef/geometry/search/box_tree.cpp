@@ -49,6 +49,14 @@ BoxTree::BoxTree(std::span<const Box> boxes, BoxSplit split) : order_(boxes.size
   }
 }
 
+BoxTree::Rough BoxTree::rough() const {
+  Rough result;
+  result.nodes.reserve(nodes_.size());
+  for (const Node& node : nodes_) result.nodes.emplace_back(node.box);
+  result.boxes = std::vector<RoughBox>(boxes_.begin(), boxes_.end());
+  return result;
+}
+
 // The indices of those below a node, which lie beside each other.
 std::span<const std::uint32_t> BoxTree::boxes_of(std::uint32_t node) const {
   std::uint32_t first = node;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -63,15 +64,48 @@ class RoughBox {
   }
 
   [[nodiscard]] bool overlaps(const RoughBox& other) const {
-    const Words words = std::bit_cast<Words>((low_ <= other.high_) & (other.low_ <= high_));
-    return (words[0] & words[1]) == -1;
+    return are_set((low_ <= other.high_) & (other.low_ <= high_));
   }
 
  private:
   // Vectors as g++ and clang have them: where a comparison holds, all bits of its lane are set.
   using Floats __attribute__((vector_size(16))) = float;
+  using Ints __attribute__((vector_size(16))) = std::int32_t;
   using Words __attribute__((vector_size(16))) = std::int64_t;
 
+  static bool are_set(Ints lanes) {
+    const Words words = std::bit_cast<Words>(lanes);
+    return (words[0] & words[1]) == -1;
+  }
+
+ public:
+  /// A translation of boxes that lie within some bounds: whether a box, moved, overlaps another one. True if it does;
+  /// true, too, if it all but does.
+  class Moved {
+   public:
+    /// Each coordinate of the translation is within 2^-50 of the truth, relatively. A box is moved to both sides by
+    /// what it, the translation and the sum of them may be off, 2^-24 of each; of what is out of the range of floats
+    /// nothing is known.
+    Moved(const Box& bounds, const std::array<double, 3>& by) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const double sizes = std::fabs(bounds.low[i]) + std::fabs(bounds.high[i]) + std::fabs(by[i]);
+        const bool is_known = sizes < 0x1p100;
+        const double slack = is_known ? sizes * 0x1p-21 + 0x1p-120 : 0;
+        low_[i] = is_known ? static_cast<float>(by[i] - slack) : -std::numeric_limits<float>::infinity();
+        high_[i] = is_known ? static_cast<float>(by[i] + slack) : std::numeric_limits<float>::infinity();
+      }
+    }
+
+    bool operator()(const RoughBox& box, const RoughBox& other) const {
+      return are_set((box.low_ + low_ <= other.high_) & (other.low_ <= box.high_ + high_));
+    }
+
+   private:
+    Floats low_{};
+    Floats high_{};
+  };
+
+ private:
   // Numbers out of the range of floats become the last one in it.
   static float rounded(double x) { return static_cast<float>(std::clamp(x, -0x1p127, 0x1p127)); }
 
@@ -120,77 +154,34 @@ class BoxTree {
     }
   }
 
-  /// Calls visit(i, j), i < j, once for every pair of boxes that overlap, in no particular order. Descends into
-  /// pairs of nodes, so boxes that lie apart are told apart in bulk. Pairs in one group are left out: `groups`, empty
-  /// or the group of each box, kNoGroup if it is in none.
+  /// Calls visit(i, j), i < j, once for every pair of boxes that overlap, in an order that depends only on the boxes.
+  /// Descends into pairs of nodes, so boxes that lie apart are told apart in bulk. Pairs in one group are left out:
+  /// `groups`, empty or the group of each box, kNoGroup if it is in none.
   template <typename Visit>
-  void for_each_pair(Visit&& visit, std::span<const std::uint32_t> groups = {}) const {
-    if (nodes_.empty()) return;
-    const std::vector<std::uint32_t> node_group = groups_of_nodes(groups);
-    std::vector<RoughBox> nodes;
-    nodes.reserve(nodes_.size());
-    for (const Node& node : nodes_) nodes.emplace_back(node.box);
-    const std::vector<RoughBox> boxes(boxes_.begin(), boxes_.end());
-    // What is found is put at the end, which moves on if it is to stay.
-    std::array<std::array<std::uint32_t, 2>, 3 * 2 * kDeepest> stack;  // of nodes
-    std::size_t depth = 0;
-    const auto push = [&](std::uint32_t m, std::uint32_t n) {
-      stack[depth] = {m, n};
-      const bool in_one = node_group[m] == node_group[n] && node_group[m] != kNoGroup;
-      depth += nodes[m].overlaps(nodes[n]) && !in_one ? 1 : 0;
-    };
-    const auto in_one_group = [groups](std::uint32_t i, std::uint32_t j) {
-      return !groups.empty() && groups[i] == groups[j] && groups[i] != kNoGroup;
-    };
-    std::array<std::array<std::uint32_t, 2>, kLeafSize * kLeafSize + 1> found;
-    const auto visit_leaves = [&](const Node& a, const Node& b) {
-      std::size_t count = 0;
-      for (std::uint32_t i = a.first; i < a.first + a.count; ++i) {
-        for (std::uint32_t j = &a == &b ? i + 1 : b.first; j < b.first + b.count; ++j) {
-          found[count] = {i, j};
-          count += boxes[i].overlaps(boxes[j]) ? 1 : 0;
-        }
-      }
-      for (const auto& [i, j] : std::span(found).first(count)) {
-        if (in_one_group(order_[i], order_[j])) continue;
-        if (boxes_[i].overlaps(boxes_[j])) visit(std::min(order_[i], order_[j]), std::max(order_[i], order_[j]));
-      }
-    };
-    push(0, 0);
-    while (depth > 0) {
-      const auto [m, n] = stack[--depth];
-      const Node& a = nodes_[m];
-      const Node& b = nodes_[n];
-      if (a.count > 0 && b.count > 0) {
-        visit_leaves(a, b);
-      } else if (m == n) {
-        push(a.first, a.first);
-        push(a.first + 1, a.first + 1);
-        push(a.first, a.first + 1);
-      } else if (a.count > 0) {
-        push(m, b.first);
-        push(m, b.first + 1);
-      } else if (b.count > 0) {
-        push(a.first, n);
-        push(a.first + 1, n);
-      } else {
-        for (const std::uint32_t i : {0U, 1U}) {
-          for (const std::uint32_t j : {0U, 1U}) push(a.first + i, b.first + j);
-        }
-      }
-    }
-  }
+  void for_each_pair(Visit&& visit, std::span<const std::uint32_t> groups = {}) const;
+
+  /// The same in parts, for several threads.
+  class PairSearch;
+
+  /// All boxes of a tree in floats.
+  struct Rough {
+    std::vector<RoughBox> nodes, boxes;
+  };
+  [[nodiscard]] Rough rough() const;
 
   /// Calls visit(index of box, index of box of the other tree) for every two that meet(own box, other box) takes, which
   /// must take two boxes if it takes two inside them, until it returns false. Descends into pairs of nodes. In an order
-  /// that depends only on the boxes.
+  /// that depends only on the boxes. Asks about the boxes in floats, `own` and `others`, which are `rough()` of both
+  /// trees.
   template <typename Meet, typename Visit>
-  void for_each_pair_with(const BoxTree& other, Meet&& meet, Visit&& visit) const {
+  void for_each_pair_with(const Rough& own, const BoxTree& other, const Rough& others, Meet&& meet,
+                          Visit&& visit) const {
     if (nodes_.empty() || other.nodes_.empty()) return;
     std::array<std::array<std::uint32_t, 2>, 3 * 2 * kDeepest> stack;
     std::size_t depth = 0;
     const auto push = [&](std::uint32_t m, std::uint32_t n) {
-      if (meet(nodes_[m].box, other.nodes_[n].box)) stack[depth++] = {m, n};
+      stack[depth] = {m, n};  // moves on if it is to stay
+      depth += meet(own.nodes[m], others.nodes[n]) ? 1 : 0;
     };
     push(0, 0);
     while (depth > 0) {
@@ -199,9 +190,9 @@ class BoxTree {
       const Node& b = other.nodes_[n];
       if (a.count > 0 && b.count > 0) {
         for (std::uint32_t i = a.first; i < a.first + a.count; ++i) {
-          if (!meet(boxes_[i], b.box)) continue;
+          if (!meet(own.boxes[i], others.nodes[n])) continue;
           for (std::uint32_t j = b.first; j < b.first + b.count; ++j) {
-            if (meet(boxes_[i], other.boxes_[j]) && !visit(order_[i], other.order_[j])) return;
+            if (meet(own.boxes[i], others.boxes[j]) && !visit(order_[i], other.order_[j])) return;
           }
         }
       } else if (a.count > 0) {
@@ -267,5 +258,122 @@ class BoxTree {
   std::vector<std::uint32_t> order_;
   std::vector<Box> boxes_;  // in the order of the leaves
 };
+
+/// A search for pairs of boxes that overlap. May be shared between threads.
+class BoxTree::PairSearch {
+ public:
+  /// The pairs of boxes below two nodes.
+  using Part = std::array<std::uint32_t, 2>;
+
+  /// The tree and the groups (see for_each_pair) must outlive it. O(n).
+  explicit PairSearch(const BoxTree& tree, std::span<const std::uint32_t> groups = {})
+      : tree_(tree), groups_(groups), node_group_(tree.groups_of_nodes(groups)), rough_(tree.rough()) {}
+
+  /// All pairs in about so many parts, or more, if there are as many; in the order of for_each_pair.
+  [[nodiscard]] std::vector<Part> parts(std::size_t count) const {
+    std::vector<Part> result;
+    if (tree_.nodes_.empty()) return result;
+    result.push_back({0, 0});
+    bool is_split = true;
+    while (is_split && result.size() < count) {
+      is_split = false;
+      std::vector<Part> next;
+      for (const Part& part : result) {
+        if (is_pair_of_leaves(part)) {
+          next.push_back(part);
+          continue;
+        }
+        is_split = true;
+        std::array<Part, 4> below;
+        std::size_t depth = 0;
+        push_below(part, below, depth);
+        while (depth > 0) next.push_back(below[--depth]);
+      }
+      result = std::move(next);
+    }
+    return result;
+  }
+
+  /// Calls visit(i, j), i < j, for the pairs of a part.
+  template <typename Visit>
+  void for_each(const Part& part, Visit&& visit) const {
+    std::array<Part, 3 * 2 * kDeepest> stack;
+    std::size_t depth = 0;
+    push(part[0], part[1], stack, depth);
+    while (depth > 0) {
+      const Part at = stack[--depth];
+      if (is_pair_of_leaves(at)) {
+        visit_leaves(at, visit);
+      } else {
+        push_below(at, stack, depth);
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] bool is_pair_of_leaves(const Part& part) const {
+    return tree_.nodes_[part[0]].count > 0 && tree_.nodes_[part[1]].count > 0;
+  }
+
+  // What is found is put at the end, which moves on if it is to stay.
+  template <std::size_t size>
+  void push(std::uint32_t m, std::uint32_t n, std::array<Part, size>& stack, std::size_t& depth) const {
+    stack[depth] = {m, n};
+    const bool in_one = node_group_[m] == node_group_[n] && node_group_[m] != kNoGroup;
+    depth += rough_.nodes[m].overlaps(rough_.nodes[n]) && !in_one ? 1 : 0;
+  }
+
+  template <std::size_t size>
+  void push_below(const Part& part, std::array<Part, size>& stack, std::size_t& depth) const {
+    const auto [m, n] = part;
+    const Node& a = tree_.nodes_[m];
+    const Node& b = tree_.nodes_[n];
+    if (m == n) {
+      push(a.first, a.first, stack, depth);
+      push(a.first + 1, a.first + 1, stack, depth);
+      push(a.first, a.first + 1, stack, depth);
+    } else if (a.count > 0) {
+      push(m, b.first, stack, depth);
+      push(m, b.first + 1, stack, depth);
+    } else if (b.count > 0) {
+      push(a.first, n, stack, depth);
+      push(a.first + 1, n, stack, depth);
+    } else {
+      for (const std::uint32_t i : {0U, 1U}) {
+        for (const std::uint32_t j : {0U, 1U}) push(a.first + i, b.first + j, stack, depth);
+      }
+    }
+  }
+
+  template <typename Visit>
+  void visit_leaves(const Part& leaves, Visit&& visit) const {
+    const Node& a = tree_.nodes_[leaves[0]];
+    const Node& b = tree_.nodes_[leaves[1]];
+    std::array<std::array<std::uint32_t, 2>, kLeafSize * kLeafSize + 1> found;
+    std::size_t count = 0;
+    for (std::uint32_t i = a.first; i < a.first + a.count; ++i) {
+      for (std::uint32_t j = &a == &b ? i + 1 : b.first; j < b.first + b.count; ++j) {
+        found[count] = {i, j};
+        count += rough_.boxes[i].overlaps(rough_.boxes[j]) ? 1 : 0;
+      }
+    }
+    for (const auto& [i, j] : std::span(found).first(count)) {
+      const std::uint32_t p = tree_.order_[i];
+      const std::uint32_t q = tree_.order_[j];
+      if (!groups_.empty() && groups_[p] == groups_[q] && groups_[p] != kNoGroup) continue;
+      if (tree_.boxes_[i].overlaps(tree_.boxes_[j])) visit(std::min(p, q), std::max(p, q));
+    }
+  }
+
+  const BoxTree& tree_;
+  std::span<const std::uint32_t> groups_;
+  std::vector<std::uint32_t> node_group_;
+  Rough rough_;
+};
+
+template <typename Visit>
+void BoxTree::for_each_pair(Visit&& visit, std::span<const std::uint32_t> groups) const {
+  if (!nodes_.empty()) PairSearch(*this, groups).for_each({0, 0}, visit);
+}
 
 }  // namespace nef

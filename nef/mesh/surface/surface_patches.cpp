@@ -7,8 +7,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 
 #include "nef/base/fast_path.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/geometry/search/direction_tree.h"
 #include "nef/mesh/surface/coplanar_groups.h"
 #include "nef/mesh/surface/terrains.h"
@@ -301,28 +303,42 @@ class WideStars {
     for (Star& star : stars_) star.directions.build();
   }
 
+  using Pair = std::array<std::uint32_t, 2>;
+
   // Calls visit(i, j) at least once for each pair of patches that may have something in common beyond shared corners.
   template <typename Visit>
   void for_each_pair(const Visit& visit) const {
-    if (stars_.empty()) {
-      const BoxTree tree = patches_.tree(layout_);
-      tree.for_each_pair(visit, patches_.terrains(layout_, tree));
-      return;
-    }
-    std::vector<std::uint32_t> plain;
-    std::vector<std::uint32_t> starred;
-    for (std::uint32_t p = 0; p < boxes_.size(); ++p) (star_of_[p] == kNone ? plain : starred).push_back(p);
-    const BoxTree plain_tree = tree_of(plain);
-    const BoxTree starred_tree = tree_of(starred);
-    plain_tree.for_each_pair([&](std::uint32_t i, std::uint32_t j) { visit(plain[i], plain[j]); });
-    std::vector<std::uint32_t> found;
-    for (std::uint32_t s = 0; s < stars_.size(); ++s) {
-      plain_tree.for_each_overlap(stars_[s].box, [&](std::uint32_t i) { ask(s, plain[i], found, visit); });
-      // Of a pair in one star the larger asks, of pairs in two, who is of the later one.
-      starred_tree.for_each_overlap(stars_[s].box, [&](std::uint32_t i) {
-        if (star_of_[starred[i]] >= s) ask(s, starred[i], found, visit);
+    const auto plain = [&](const BoxTree& tree, std::span<const std::uint32_t> groups, const auto& patch) {
+      tree.for_each_pair([&](std::uint32_t i, std::uint32_t j) { visit(patch(i), patch(j)); }, groups);
+    };
+    search(plain, visit);
+  }
+
+  // The same pairs, but for those that keep(i, j) says no to, on the threads of `monitor`; `keep` asks no predicates.
+  // If there are `limit` or more, at least so many. The same for any number of threads.
+  template <typename Keep>
+  std::vector<Pair> pairs(std::size_t limit, const Keep& keep, const Monitor& monitor) const {
+    std::vector<Pair> result;
+    const auto plain = [&](const BoxTree& tree, std::span<const std::uint32_t> groups, const auto& patch) {
+      constexpr std::size_t kBoxesOfPart = 2048;
+      const BoxTree::PairSearch search(tree, groups);
+      const std::vector<BoxTree::PairSearch::Part> parts = search.parts(tree.size() / kBoxesOfPart + 1);
+      std::vector<std::vector<Pair>> found(parts.size());
+      std::atomic<std::size_t> count = 0;  // so far, but for some of each part
+      parallel_for(parts.size(), for_vertices(tree.size(), monitor), [&](std::size_t k, const Monitor&) {
+        constexpr std::size_t kCountedAtOnce = 1024;
+        search.for_each(parts[k], [&](std::uint32_t i, std::uint32_t j) {
+          if (!keep(patch(i), patch(j)) || count.load(std::memory_order_relaxed) >= limit) return;
+          found[k].push_back({patch(i), patch(j)});
+          if (found[k].size() % kCountedAtOnce == 0) count.fetch_add(kCountedAtOnce, std::memory_order_relaxed);
+        });
       });
-    }
+      for (const std::vector<Pair>& part : found) result.insert(result.end(), part.begin(), part.end());
+    };
+    search(plain, [&](std::uint32_t i, std::uint32_t j) {
+      if (result.size() < limit && keep(i, j)) result.push_back({i, j});
+    });
+    return result;
   }
 
  private:
@@ -335,6 +351,30 @@ class WideStars {
     std::vector<std::uint32_t> members;
     DirectionTree directions;
   };
+
+  // plain(tree, groups, patch) is called for the patches that are told apart by their boxes: patch(i) is that of box i.
+  template <typename Plain, typename Visit>
+  void search(const Plain& plain_pairs, const Visit& visit) const {
+    if (stars_.empty()) {
+      const BoxTree tree = patches_.tree(layout_);
+      plain_pairs(tree, patches_.terrains(layout_, tree), [](std::uint32_t i) { return i; });
+      return;
+    }
+    std::vector<std::uint32_t> plain;
+    std::vector<std::uint32_t> starred;
+    for (std::uint32_t p = 0; p < boxes_.size(); ++p) (star_of_[p] == kNone ? plain : starred).push_back(p);
+    const BoxTree plain_tree = tree_of(plain);
+    const BoxTree starred_tree = tree_of(starred);
+    plain_pairs(plain_tree, {}, [&](std::uint32_t i) { return plain[i]; });
+    std::vector<std::uint32_t> found;
+    for (std::uint32_t s = 0; s < stars_.size(); ++s) {
+      plain_tree.for_each_overlap(stars_[s].box, [&](std::uint32_t i) { ask(s, plain[i], found, visit); });
+      // Of a pair in one star the larger asks, of pairs in two, who is of the later one.
+      starred_tree.for_each_overlap(stars_[s].box, [&](std::uint32_t i) {
+        if (star_of_[starred[i]] >= s) ask(s, starred[i], found, visit);
+      });
+    }
+  }
 
   [[nodiscard]] BoxTree tree_of(std::span<const std::uint32_t> patches) const {
     std::vector<Box> boxes;
@@ -397,19 +437,15 @@ void SurfacePatches::for_each_candidate(const Visit& visit) const {
   for (const Patch& patch : faces_.patches) {
     if (!patch.proper) within(faces_, patch, ordered);
   }
-  std::vector<std::array<std::uint32_t, 2>> pairs;
-  pairs.reserve(4 * faces_.patches.size());
   const std::size_t limit = kManyPairs * faces_.patches.size() + 1000;
   const bool are_triangles = faces_.patches.size() == surface_.triangles.size();  // all of them
-  const auto settled = [&](std::uint32_t i, std::uint32_t j) {
-    if (are_triangles) return stars_.settle(surface_.triangles[i], surface_.triangles[j]);
+  const auto is_open = [&](std::uint32_t i, std::uint32_t j) {
+    if (are_triangles) return !stars_.settle(surface_.triangles[i], surface_.triangles[j]);
     const Patch& p = faces_.patches[i];
     const Patch& q = faces_.patches[j];
-    return p.size() == 1 && q.size() == 1 && stars_.settle(surface_.triangles[p.first], surface_.triangles[q.first]);
+    return p.size() != 1 || q.size() != 1 || !stars_.settle(surface_.triangles[p.first], surface_.triangles[q.first]);
   };
-  WideStars(*this, faces_).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
-    if (pairs.size() < limit && !settled(i, j)) pairs.push_back({i, j});
-  });
+  std::vector<WideStars::Pair> pairs = WideStars(*this, faces_).pairs(limit, is_open, monitor_);
   if (pairs.size() < limit) {
     for (const auto& [i, j] : pairs) visit_pair(faces_, i, j, ordered);
     return;

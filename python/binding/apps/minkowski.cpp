@@ -51,6 +51,12 @@ void fill(const py::object& report, const minkowski::MinkowskiReport& counts) {
     py::dict entry;
     entry["chosen"] = choice.chosen;
     entry["why"] = choice.why;
+    if (choice.pairs_of_cells != 0) {
+      py::dict estimates;
+      estimates["pairs_of_cells"] = choice.pairs_of_cells;
+      estimates["convolution_facets"] = choice.convolution_facets;
+      entry["estimates"] = estimates;
+    }
     strategies.append(entry);
   }
   found["strategies"] = strategies;

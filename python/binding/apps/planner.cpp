@@ -187,6 +187,8 @@ py::dict solve_rigid(const plan::Scene& scene, const py::object& max_cells, cons
   result["samples"] = answer.samples;
   result["slices"] = answer.slices;
   result["boxes"] = answer.boxes;
+  result["reference_in_question"] = from_triple(answer.in_question.reference);
+  result["boxes_in_question"] = answer.in_question.boxes;
   if (answer.proof) result["proof_text"] = plan::proof_text(*answer.proof);
   if (answer.collision) result["collision"] = plan::describe(*answer.collision, scene);
   return result;
@@ -473,11 +475,11 @@ void define_module(py::module_& m) {
       .def_property_readonly("turns_freely", [](const plan::Scene& s) { return s.turns_freely; })
       .def_property_readonly("start", [](const plan::Scene& s) { return end_of(s, 0); })
       .def_property_readonly("goal", [](const plan::Scene& s) { return end_of(s, 1); });
-  m.def("read", [](const std::string& path, const std::string& crossings, py::handle close) {
+  m.def("read", [](const std::string& path, const std::string& crossings, py::handle close, bool turn_freely) {
     MeshOptions meshes = mesh_options(crossings, close);
     return call(kSmallCall, [=](const Monitor& monitor) mutable {
       meshes.monitor = monitor;
-      return plan::read_scene(path, meshes);
+      return turn_freely ? plan::freely_turning_scene(path, meshes) : plan::read_scene(path, meshes);
     });
   });
   py::class_<TurningProofOfScene>(m, "TurningProof")

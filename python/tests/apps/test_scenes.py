@@ -316,9 +316,23 @@ def test_robots_that_turn_freely(needs):
     assert (plan.samples, plan.slices) == (report["samples"], report["slices"]) and plan.degrees is None
     assert numpy.asarray(plan).shape == (len(plan.waypoints), 7)
     assert scene.certify(plan) and json.loads(scene.prove(plan))["claim"]["status"] == "path"
+    # A problem of OMPL.app, whose robot fits only upright: it may turn, or not.
+    wall = ROOT / "data" / "planner" / "omplapp" / "wall_turned.cfg"
+    with pytest.warns(nef.InputWarning, match="turn_freely=True"):
+        assert planner.read(wall).plan().status == "infeasible"
+    turning = planner.read(wall, turn_freely=True)
+    report = asked(wall, "--turn-freely")
+    assert turning.plan().waypoints == [exact(pose["position"]) for pose in report["path"]]
+    with pytest.raises(nef.InputError, match="only the robots of .cfg files"):
+        planner.read(path, turn_freely=True)
     # The same scene from its parts; with too little to find a path, and with a start that is not free.
     made = planner.Scene(scene.robot, scene.obstacles, scene.box, rotation="SO(3)")
     assert made.plan(scene.start, scene.goal, max_cells=2).status == "undecided"
+    hole = planner.Scene(nef.box((-1, -1, -1), (1, 1, 1)), [nef.box((-1, -9, -9), (0, 9, 9)) - nef.box((-2, "-19/20", "-19/20"), (2, "19/20", "19/20"))],
+                         ((-9, -9, -9), (9, 9, 9)), rotation="SO(3)")
+    few = hole.plan(((-5, 0, 0), (1, 0, 0, 0)), ((5, 0, 0), (1, 0, 0, 0)), max_cells=2)
+    assert few.status == "undecided" and len(few.reference_in_question) == 3
+    assert few.boxes_in_question and all(low[0] < high[0] for low, high in few.boxes_in_question)
     assert made.plan(scene.start, scene.goal, seconds=0).status == "undecided"
     assert made.plan(((0, 0, 0), (1, 1, 1, 1)), scene.goal).status == "invalid_start"
     for call in (made.components, made.passages, lambda: made.plan((0, 0, 0), (1, 0, 0)), made.plan,

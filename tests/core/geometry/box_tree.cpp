@@ -54,6 +54,14 @@ TEST_CASE("trees of boxes find what overlaps, however they are split") {
       CHECK(tree.size() == count);
       std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
       tree.for_each_pair([&](std::uint32_t i, std::uint32_t j) { found.emplace_back(i, j); });
+      const BoxTree::PairSearch search(tree);
+      for (const std::size_t parts : {1U, 3U, 50U, 10000U}) {
+        std::vector<std::pair<std::uint32_t, std::uint32_t>> found_in_parts;
+        for (const BoxTree::PairSearch::Part& part : search.parts(parts)) {
+          search.for_each(part, [&](std::uint32_t i, std::uint32_t j) { found_in_parts.emplace_back(i, j); });
+        }
+        CHECK(found_in_parts == found);
+      }
       std::sort(found.begin(), found.end());
       CHECK(found == pairs);
       for (const Box& query : random_boxes(random, 20)) {
@@ -82,17 +90,49 @@ TEST_CASE("two trees of boxes find what overlaps, until the visitor has enough")
     }
     const BoxTree tree(boxes);
     const BoxTree other(others, BoxSplit::kMedians);
-    const auto meet = [](const Box& a, const Box& b) { return a.overlaps(b); };
+    const BoxTree::Rough rough = tree.rough();
+    const BoxTree::Rough rough_other = other.rough();
+    const RoughBox::Moved meet(tree.bounds(), {});
     std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
-    tree.for_each_pair_with(other, meet, [&](std::uint32_t i, std::uint32_t j) {
-      found.emplace_back(i, j);
+    tree.for_each_pair_with(rough, other, rough_other, meet, [&](std::uint32_t i, std::uint32_t j) {
+      if (boxes[i].overlaps(others[j])) found.emplace_back(i, j);  // floats take what all but meets, too
       return true;
     });
     std::sort(found.begin(), found.end());
     CHECK(found == pairs);
     std::size_t visits = 0;
-    tree.for_each_pair_with(other, meet, [&](std::uint32_t, std::uint32_t) { return ++visits < 3; });
-    CHECK(visits == std::min<std::size_t>(pairs.size(), 3));
+    tree.for_each_pair_with(rough, other, rough_other, meet,
+                            [&](std::uint32_t, std::uint32_t) { return ++visits < 3; });
+    CHECK(visits >= std::min<std::size_t>(pairs.size(), 3));
+    CHECK(visits <= 3);
+  }
+}
+
+TEST_CASE("boxes in floats that are moved meet all that they overlap, and little else") {
+  std::mt19937 random(12);
+  std::uniform_real_distribution<double> number(-1, 1);
+  for (const double size : {1.0, 1e-40, 1e25, 1e200}) {
+    for (int k = 0; k < 200; ++k) {
+      CAPTURE(size, k);
+      const std::array<double, 3> by = {size * number(random), size * number(random), size * number(random)};
+      Box box;
+      Box beside;  // touches the box, moved
+      Box beyond;  // does not, by far more than floats are rounded by
+      for (std::size_t i = 0; i < 3; ++i) {
+        box.low[i] = size * number(random);
+        box.high[i] = box.low[i] + 0.1 * size;
+        beside.low[i] = std::nextafter(box.high[i] + by[i], -HUGE_VAL) - 0x1p-52 * size;
+        beside.high[i] = beside.low[i] + size;
+        beyond.low[i] = beside.low[i] + (i == 1 ? 1e-4 * size : 0);
+        beyond.high[i] = beyond.low[i] + size;
+      }
+      const RoughBox::Moved meet(box, by);
+      CHECK(meet(RoughBox(box), RoughBox(beside)));
+      if (size == 1) CHECK(!meet(RoughBox(box), RoughBox(beyond)));
+      // And the other way: what is moved back.
+      const RoughBox::Moved back(beside, {-by[0], -by[1], -by[2]});
+      CHECK(back(RoughBox(beside), RoughBox(box)));
+    }
   }
 }
 

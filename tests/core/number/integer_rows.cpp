@@ -70,9 +70,13 @@ TEST_CASE("tables of integers give back what was pushed, short or long, and copi
       CHECK(holds_rows(table, rows));
       CHECK(holds_rows(copy, rows));
       CHECK(holds_rows(appended, rows));
+      IntegerRows after_giant(width);
+      push_row(after_giant, IntegerRow(width, Integer(1) << 64 * 130));
+      after_giant.append(table, 0, rows.size());
       for (std::uint32_t r = 0; r < rows.size(); ++r) {
         CHECK(table.equal(r, appended, r));
         CHECK(table.hash(r) == appended.hash(r));
+        CHECK(table.hash(r) == after_giant.hash(r + 1));
       }
       while (!rows.empty()) {
         table.pop();

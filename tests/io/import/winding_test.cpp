@@ -295,6 +295,9 @@ TEST_CASE("A solid that stands twice in a mesh, once inside out, is told to encl
   CHECK(notes({box, {{6, 0, 0}, {7, 1, 1}}, {{6, 0, 0}, {7, 1, 1}, true}}, set) == told);
   // A cavity that another solid fills.
   CHECK(notes({box, {{1, 1, 1}, {2, 2, 2}, true}, {{1, 1, 1}, {2, 2, 2}}}, set) == told);
+  // Nothing is said of a double one that shares an edge with the box, and so is a part of what encloses something.
+  CHECK(notes({box, {{4, 4, 0}, {5, 5, 4}}, {{4, 4, 0}, {5, 5, 4}, true}}, set).empty());
+  CHECK(notes({box, {{4, 4, 4}, {5, 5, 5}}, {{4, 4, 4}, {5, 5, 5}, true}}, set) == told);
   // Walls between solids are nothing to tell, also where a solid has others on all sides.
   std::vector<Brick> block;
   for (int i = 0; i < 27; ++i) {

@@ -14,7 +14,7 @@
 namespace nef {
 namespace {
 
-bool is_convex(const Mesh& mesh) { return bounds_small_convex_solid(mesh, MeshSurface(mesh, {}), {}); }
+bool is_convex(const Mesh& mesh) { return bounds_small_convex_solids(mesh, MeshSurface(mesh, {}), {}); }
 
 Mesh box() {
   Mesh mesh;
@@ -47,19 +47,27 @@ std::vector<Rational3> lattice_points() {
   return points;
 }
 
-// Together with a far box that is cut finely enough, a mesh is too large for anything but the search.
-bool has_problems_by_search(const Mesh& mesh) {
-  Mesh both = mesh;
-  for (long i = 0; i < 9; ++i) {
-    const auto base = static_cast<std::uint32_t>(both.vertices.size());
-    const Mesh far = box();
-    for (const Rational3& v : far.vertices) both.vertices.push_back({v[0] + 100 + 2 * i, v[1], v[2]});
-    for (std::size_t f = 0; f < far.face_count(); ++f) {
-      std::vector<std::uint32_t> face(far.face(f).begin(), far.face(f).end());
-      for (std::uint32_t& v : face) v += base;
-      both.push_face(face);
-    }
+void add(Mesh& mesh, const Mesh& more, const Rational3& shift) {
+  const auto base = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const Rational3& v : more.vertices) mesh.vertices.push_back({v[0] + shift[0], v[1] + shift[1], v[2] + shift[2]});
+  for (std::size_t f = 0; f < more.face_count(); ++f) {
+    std::vector<std::uint32_t> face(more.face(f).begin(), more.face(f).end());
+    for (std::uint32_t& v : face) v += base;
+    mesh.push_face(face);
   }
+}
+
+// Together with a far solid of many vertices, a mesh is too large for anything but the search.
+bool has_problems_by_search(const Mesh& mesh) {
+  std::vector<Rational3> paraboloid;
+  for (long i = 0; i < 64; ++i) {
+    const long x = i % 8;
+    const long y = i / 8;
+    paraboloid.push_back({Rational(x), Rational(y), Rational(x * x + y * y)});
+  }
+  Mesh both = mesh;
+  add(both, convex_hull_mesh(paraboloid), {100, 0, 0});
+  REQUIRE_FALSE(is_convex(both));
   return !check_mesh(both).empty();
 }
 
@@ -123,6 +131,33 @@ TEST_CASE("changed hulls are convex only if a search finds nothing") {
     Mesh hull = convex_hull_mesh(mesh.vertices);
     RC_ASSERT(hull.vertices.size() == mesh.vertices.size());
     RC_ASSERT(hull.face_count() == mesh.face_count());
+  }));
+}
+
+TEST_CASE("several small convex solids are known where their boxes are apart") {
+  Mesh boxes;
+  for (long i = 0; i < 20; ++i) add(boxes, box(), {2 * i, i % 3, 0});
+  CHECK(is_convex(boxes));
+  Mesh touching = boxes;
+  add(touching, box(), {39, 1, 0});
+  CHECK_FALSE(is_convex(touching));
+  Mesh open = boxes;
+  open.corners.resize(open.corners.size() - 4);
+  open.face_begin.pop_back();
+  CHECK_FALSE(is_convex(open));
+  Mesh turned = boxes;
+  std::reverse(turned.corners.begin(), turned.corners.begin() + 4);
+  CHECK_FALSE(is_convex(turned));
+  Mesh doubled = boxes;  // a vertex of one box stands where one of another does
+  doubled.vertices[8 * 19] = doubled.vertices[0];
+  CHECK_FALSE(is_convex(doubled));
+  CHECK(rc::check("hulls of lattice points beside each other", [] {
+    Mesh mesh;
+    for (auto count = *rc::gen::inRange(2, 12); count > 0; --count) {
+      add(mesh, convex_hull_mesh(lattice_points()),
+          {*rc::gen::inRange(-20, 20), *rc::gen::inRange(-20, 20), *rc::gen::inRange(-2, 3)});
+    }
+    if (is_convex(mesh)) RC_ASSERT(!has_problems_by_search(mesh));
   }));
 }
 

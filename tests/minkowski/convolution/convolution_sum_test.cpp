@@ -5,7 +5,9 @@
 // same turned and moved by next to nothing, so that doubles can not tell.
 #include <rapidcheck.h>
 
+#include <array>
 #include <catch2/catch.hpp>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
@@ -14,6 +16,7 @@
 #include "apps/minkowski/convolution/convolution_sum.h"
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/morphology.h"
+#include "apps/minkowski/sum/strategy_choice.h"
 #include "nef/construct/construct.h"
 #include "tests/support/numbers/hard_points.h"
 #include "tests/support/shapes/fixed_cases.h"
@@ -86,11 +89,10 @@ TEST_CASE("convolution: an edge that lies within one cut of a segment") {
 }
 
 // Both, if the convolution was taken, which it need not be: with pieces of dimension 2 and less it is not.
-bool sums_agree(const Polyhedron& a, const Polyhedron& b) {
+bool sums_agree(const Polyhedron& a, const Polyhedron& b, MinkowskiReport* report = nullptr) {
   MinkowskiOptions options;
   options.strategy = UnionStrategy::kConvolution;
-  MinkowskiReport report;
-  const Polyhedron sum = valid(minkowski_sum(a, b, options, &report), "sum");
+  const Polyhedron sum = valid(minkowski_sum(a, b, options, report), "sum");
   return nef::equal(sum, by_cells(a, b));
 }
 
@@ -186,7 +188,31 @@ TEST_CASE("convolution: marks of parallel facets and edges") {
   for (const std::string& one : sets) {
     for (const std::string& other : sets) {
       CAPTURE(one, other);
-      CHECK(sums_agree(nef::test::set(one), nef::test::set(other)));
+      MinkowskiReport report;
+      CHECK(sums_agree(nef::test::set(one), nef::test::set(other), &report));
+      CHECK(report.choices.at(0).chosen == "convolution");
+    }
+  }
+}
+
+// Facets that are not in their sets, with sides, parts of sides and corners that are.
+TEST_CASE("convolution: parts of a facet's border without the facet") {
+  const std::vector<std::string> sets = {
+      "interior(box(0,0,0,2,2,2)) + segment(0,0,0,2,0,0)",
+      "interior(box(0,0,0,2,2,2)) + segment(0,0,2,1,0,2) + point(2,2,2)",
+      "interior(box(0,0,0,3,3,1) - box(1,1,-1,2,2,2)) + segment(1,1,0,2,1,0) + segment(0,0,1,0,3,1)",
+      "interior(hull(0,0,0,3,0,0,0,3,0,0,0,2)) + segment(0,0,0,3,0,0) + point(0,3,0)",
+      "interior(hull(0,0,0,3,0,0,1,2,0,0,0,2,2,0,2,1,1,2)) + segment(0,0,2,2,0,2) + segment(3,0,0,1,2,0)",
+      "box(0,0,0,1,2,1) - polygon(0,0,0, 1,0,0, 1,2,0, 0,2,0) + segment(0,0,0,1,0,0) + segment(0,2,0,0,1,0)"};
+  for (const std::string& one : sets) {
+    for (const std::string& other : sets) {
+      CAPTURE(one, other);
+      const Polyhedron a = nef::test::set(one);
+      const Polyhedron b = nef::test::set(other);
+      MinkowskiReport report;
+      CHECK(sums_agree(a, b, &report));
+      CHECK(sums_agree(a, nef::minkowski::negate(b), &report));
+      for (const auto& choice : report.choices) CHECK(choice.chosen == "convolution");
     }
   }
 }
@@ -266,6 +292,9 @@ TEST_CASE("convolution: any number of threads gives the same complex", "[threads
   check_any_threads(nef::subtract(nef::test::set("box(0,0,0,6,6,6)"), mushroom), ball);
   check_any_threads(nef::test::set("box(0,0,0,6,6,6) - interior(box(1,1,1,5,5,5))"),
                     nef::test::set("box(0,0,0,4,4,4)"));
+  // Large enough for several ranges of facets, corners and vertices.
+  check_any_threads(mushroom,
+                    to_polyhedron(nef::minkowski::ball_approximation(1, 16, nef::minkowski::Side::kInner).cell));
 }
 
 // Where parts have coplanar and coaxial faces, most points at which facets meet lie in the middle of a face or an edge
@@ -296,6 +325,80 @@ TEST_CASE("convolution: the default takes it for solids, but not for two convex 
   CHECK(chosen(ring, other) == "convolution");
   CHECK(chosen(gear, gear) == "convolution");
   CHECK(chosen(cube, cube) != "convolution");
+}
+
+TEST_CASE("convolution: cells are chosen where few pairs of them face many facets") {
+  const Polyhedron cross = nef::test::set("box(0,0,0, 3,1,1) + box(1,-1,0, 2,2,1)");
+  const auto sum_with = [&](unsigned parts, MinkowskiReport& report) {
+    return valid(minkowski_sum(cross, nef::minkowski::inner_ball(1, parts), {}, &report), "sum");
+  };
+  MinkowskiReport small;
+  sum_with(4, small);
+  CHECK(small.choices.at(0).chosen == "convolution");
+  MinkowskiReport large;
+  const Polyhedron sum = sum_with(8, large);
+  CHECK(large.choices.at(0).chosen == "queue");
+  CHECK_THAT(large.choices.at(0).why, Catch::StartsWith("the convolution has many facets for so few pairs of cells"));
+  CHECK(large.choices.at(0).pairs_of_cells == 5);
+  nef::minkowski::MinkowskiOptions options;
+  options.strategy = nef::minkowski::UnionStrategy::kConvolution;
+  CHECK(nef::equal(sum, minkowski_sum(cross, nef::minkowski::inner_ball(1, 8), options)));
+}
+
+TEST_CASE("convolution: each facet of a sheet and each part counts as a cell") {
+  nef::Mesh sheet;  // of 288 triangles, no two of which are in one plane
+  for (int x = 0; x <= 12; ++x) {
+    for (int y = 0; y <= 12; ++y)
+      sheet.vertices.push_back({Rational(x), Rational(y), Rational(x * x + y * y + x * y, 9)});
+  }
+  for (std::uint32_t x = 0; x < 12; ++x) {
+    for (std::uint32_t y = 0; y < 12; ++y) {
+      const std::uint32_t at = 13 * x + y;
+      sheet.push_face(std::array<std::uint32_t, 3>{at, at + 13, at + 14});
+      sheet.push_face(std::array<std::uint32_t, 3>{at, at + 14, at + 1});
+    }
+  }
+  const auto pairs_with = [](const Polyhedron& a, const Polyhedron& b, std::string& chosen) {
+    MinkowskiReport report;
+    minkowski_sum(a, b, {}, &report);
+    chosen = report.choices.at(0).chosen;
+    return report.choices.at(0).pairs_of_cells;
+  };
+  std::string chosen;
+  const Polyhedron ball = nef::minkowski::inner_ball(1, 2);
+  CHECK(pairs_with(nef::from_mesh(sheet, {.as_surface = true}), ball, chosen) == 288);
+  CHECK(chosen == "convolution");
+  CHECK(pairs_with(nef::test::set("box(0,0,0,1,1,1) + box(2,0,0,3,1,1) + box(4,0,0,5,1,1)"),
+                   nef::test::set("box(0,0,0,1,1,1) + box(9,0,0,10,1,1)"), chosen) == 6);
+}
+
+TEST_CASE("convolution: where there are far more cells than was estimated, it is taken after all") {
+  const Polyhedron cross = nef::test::set("box(0,0,0, 3,1,1) + box(1,-1,0, 2,2,1)");
+  const Polyhedron ball = nef::minkowski::inner_ball(1, 8);
+  nef::minkowski::Summand a(cross);
+  nef::minkowski::Summand b(ball);
+  MinkowskiReport report;
+  nef::minkowski::StrategyChoice choice;
+  const nef::minkowski::TriedConvolution tried = sum_by_convolution(a, b, {}, report, choice);
+  CHECK(!tried.sum);
+  CHECK(tried.is_put_off);
+  CHECK(!sum_by_convolution_after_all(a, b, 64, {}, report, choice));
+  const auto sum = sum_by_convolution_after_all(a, b, 65, {}, report, choice);
+  REQUIRE(sum);
+  CHECK(choice.chosen == "convolution");
+  CHECK(choice.why == "there are 65 pairs of cells, far more than was estimated");
+  CHECK(nef::equal(*sum, minkowski_sum(cross, ball)));
+}
+
+TEST_CASE("convolution: the report says what each way has to do") {
+  const Polyhedron corner = nef::test::set("regularize(box(0,0,0,2,2,2) - box(1,1,-1,3,3,3))");  // one reflex edge
+  const Polyhedron step = nef::test::set("regularize(box(0,0,0,3,1,3) - box(1,-1,2,2,2,4))");    // two
+  MinkowskiReport report;
+  minkowski_sum(corner, step, {}, &report);
+  REQUIRE(report.choices.size() == 1);
+  CHECK(report.choices[0].pairs_of_cells == 6);
+  CHECK(report.choices[0].convolution_facets == report.convolution_facets);
+  CHECK(report.convolution_facets > 10);
 }
 
 }  // namespace

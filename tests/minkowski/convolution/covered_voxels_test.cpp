@@ -84,7 +84,7 @@ TEST_CASE("sums of grids are those of all pairs of cells") {
 void check_covered(const Polyhedron& a, const Polyhedron& b, std::size_t least) {
   const SolidFeatures of_a(a, {});
   const SolidFeatures of_b(b, {});
-  const CoveredVoxels covered(of_a, of_b, 48);
+  const CoveredVoxels covered(of_a, of_b, 48, {});
   nef::minkowski::MinkowskiOptions options;
   options.strategy = nef::minkowski::UnionStrategy::kQueue;
   const Polyhedron open = nef::interior(nef::minkowski::minkowski_sum(a, b, options));
@@ -133,10 +133,10 @@ TEST_CASE("nothing is covered where doubles have too few digits, or a solid is t
   const Polyhedron thin = nef::test::set("box(0,0,0,1/1000,1,1)");
   const Double3 middle = {0.9, 0.9, 0.9};
   const Double3 far_middle = {0x1p50 + 1, 0.9, 0.9};
-  CHECK(CoveredVoxels(SolidFeatures(cube, {}), SolidFeatures(cube, {}), 16).cover({&middle, 1}));
-  CHECK_FALSE(CoveredVoxels(SolidFeatures(cube, {}), SolidFeatures(cube, {}), 16).cover({&middle, 1}, 0.1));
-  CHECK_FALSE(CoveredVoxels(SolidFeatures(far, {}), SolidFeatures(cube, {}), 16).cover({&far_middle, 1}));
-  CHECK_FALSE(CoveredVoxels(SolidFeatures(thin, {}), SolidFeatures(cube, {}), 16).cover({&middle, 1}));
+  CHECK(CoveredVoxels(SolidFeatures(cube, {}), SolidFeatures(cube, {}), 16, {}).cover({&middle, 1}));
+  CHECK_FALSE(CoveredVoxels(SolidFeatures(cube, {}), SolidFeatures(cube, {}), 16, {}).cover({&middle, 1}, 0.1));
+  CHECK_FALSE(CoveredVoxels(SolidFeatures(far, {}), SolidFeatures(cube, {}), 16, {}).cover({&far_middle, 1}));
+  CHECK_FALSE(CoveredVoxels(SolidFeatures(thin, {}), SolidFeatures(cube, {}), 16, {}).cover({&middle, 1}));
   CHECK_FALSE(CoveredVoxels().cover({&middle, 1}));
 }
 

@@ -2,12 +2,16 @@
 //
 // Sums of sets in tiles against sums of the same sets as a whole.
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <vector>
 
 #include "apps/minkowski/in_tiles.h"
 #include "apps/minkowski/sum/regional_sum.h"
 #include "nef/base/error.h"
+#include "nef/construct/construct.h"
+#include "nef/io/native/native_binary.h"
 #include "tests/support/literals.h"
 #include "tests/support/shapes/random_polyhedra.h"
 
@@ -92,6 +96,62 @@ TEST_CASE("offsets, openings and closings in tiles are those of the whole, on tw
   const Polyhedron cube = set("box(0,0,0,1,1,1)");
   CHECK(equal(opening(tiled, cube).polyhedron(), opening(a, cube)));
   CHECK(equal(closing(tiled, cube).polyhedron(), closing(a, cube)));
+}
+
+// A star-shaped body with waves, concave in many places, of 2 n (n - 1) triangles.
+Polyhedron wavy_ball(std::size_t n) {
+  const double pi = std::acos(-1.0);
+  nef::Mesh mesh;
+  const auto add = [&](double x, double y, double z) {
+    mesh.vertices.push_back({Rational(std::lround(x)), Rational(std::lround(y)), Rational(std::lround(z))});
+  };
+  add(0, 0, 1000);
+  for (std::size_t i = 1; i < n; ++i) {
+    const double theta = pi * static_cast<double>(i) / static_cast<double>(n);
+    for (std::size_t j = 0; j < n; ++j) {
+      const double phi = 2 * pi * static_cast<double>(j) / static_cast<double>(n);
+      const double r = 700 + 200 * std::sin(3 * theta) * std::cos(4 * phi) + 40 * std::sin(9 * theta + 7 * phi);
+      add(r * std::sin(theta) * std::cos(phi), r * std::sin(theta) * std::sin(phi), r * std::cos(theta));
+    }
+  }
+  add(0, 0, -1000);
+  const auto corner = [n](std::size_t i, std::size_t j) { return static_cast<std::uint32_t>(1 + (i - 1) * n + j % n); };
+  const auto last = static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+  const auto add_face = [&mesh](const std::array<std::uint32_t, 3>& face) { mesh.push_face(face); };
+  for (std::size_t j = 0; j < n; ++j) {
+    add_face({0, corner(1, j), corner(1, j + 1)});
+    add_face({last, corner(n - 1, j + 1), corner(n - 1, j)});
+    for (std::size_t i = 1; i + 1 < n; ++i) {
+      add_face({corner(i, j), corner(i + 1, j), corner(i + 1, j + 1)});
+      add_face({corner(i, j), corner(i + 1, j + 1), corner(i, j + 1)});
+    }
+  }
+  return nef::from_mesh(mesh);
+}
+
+// Large sums look for vertices in runs of intervals, each on a thread of its own; the regions of this one are below one
+// run each.
+TEST_CASE("A sum whose vertices are found in several runs is that of its regions, on any number of threads",
+          "[threads]") {
+  const Polyhedron scan = wavy_ball(64);
+  const Polyhedron cube = set("box(-9,-9,-9,9,9,9)");
+  const auto sum_on = [&](std::size_t threads, MinkowskiReport& report) {
+    return minkowski_sum(scan, cube, {.monitor = Monitor().on_threads(threads)}, &report);
+  };
+  MinkowskiReport one;
+  const Polyhedron whole = sum_on(1, one);
+  CHECK(one.convolution_intervals > 2 * 8192);
+  CHECK(nef::validate(whole.complex()).empty());
+  for (const std::size_t threads : {2, 3}) {
+    MinkowskiReport report;
+    const Polyhedron other = sum_on(threads, report);
+    CHECK(report.convolution_points == one.convolution_points);
+    CHECK((nef::native_binary(other) == nef::native_binary(whole)));
+  }
+  MinkowskiReport by_parts;
+  const TiledPolyhedron regional = minkowski_sum(TiledPolyhedron(scan, {.limit = 512}), cube, {}, &by_parts);
+  CHECK_THAT(by_parts.choices.at(0).why, Catch::Contains(" regions"));
+  CHECK(equal(regional.polyhedron(), whole));
 }
 
 }  // namespace

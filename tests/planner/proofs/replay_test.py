@@ -3,11 +3,12 @@
 """Proofs that the planner writes, replayed by python/proofs/check.py: all hold; thousands of copies with one thing changed
 do not, or prove the same claim; and the planner says the same of each.
 
-Usage: replay_test.py PLANNER CHECK_PY WORK_DIRECTORY
+Usage: replay_test.py PLANNER CHECK_PY WORK_DIRECTORY [TEST ...]
 """
 import copy
 import importlib.util
 import json
+import operator
 import os
 import random
 import re
@@ -43,6 +44,8 @@ WEDGED = {"parts": {"mould": "box(-1,-1,-1, 4,4,4) - hull(0,0,0, 3,0,0, 0,3,0, 0
 WINDOW = {"robot": "box(-1/2,-1/2,-1/2, 1/2,1/2,1/2)", "obstacles": ["box(-1/2,-4,-4, 1/2,4,4) - box(-1,-1/16,-1/16, 1,1/16,1/16)"],
           "box": [[-3, -3, -3], [3, 3, 3]], "start": {"position": [-2, 0, 0], "quaternion": [1, 0, 0, 0]},
           "goal": {"position": [2, 0, 0], "quaternion": [1, 2, 0, 0]}, "rotation": "SO(3)"}
+# A hole nearly as wide as the cube: points that both have in common drift.
+SNUG = dict(WINDOW, obstacles=["box(-1/4,-4,-4, 1/4,4,4) - box(-1,-19/40,-19/40, 1,19/40,19/40)"])
 CORNER = {"robot": "box(-3,-1/2,0, 3,1/2,1)", "rotation": {"range": [0, 90]},
           "obstacles": ["box(-20,-20,-1, 20,20,2) - interior(box(-20,-2,-2, 0,0,3)) - interior(box(-2,-2,-2, 0,20,3))"],
           "box": [[-15, -15, 0], [15, 15, 0]], "start": [-12, -1, 0, 0], "goal": [-1, 12, 0, 90]}
@@ -61,6 +64,7 @@ CASES = [
     ("outside", SHEET, "0 0 0 0 0 1 3\n0 0 9 0 0 0 1\n", "blocked: pose 1 is outside"),
     ("narrower", NARROW, None, "infeasible: "),
     ("window", WINDOW, None, "infeasible: "),
+    ("snug", SNUG, None, "infeasible: "),
     ("corner", CORNER, None, "infeasible: "),
     ("tube", TUBE, None, "infeasible: "),
     ("wound", WOUND, None, "infeasible: "),
@@ -70,7 +74,7 @@ CASES = [
     ("apart", dict(SHEET, contact="forbid"), "0 0 0 0 0 1 3\n2 1 1 1 2 -1 3\n", "path: all 1 motions are free"),
 ]
 # Proofs whose checks take a twentieth of a second and more.
-TAMPERED = {"tight": 100, "narrower": 130, "boxed": 50, "wedged": 50, "window": 4, "corner": 7, "tube": 4, "wound": 4}
+TAMPERED = {"tight": 100, "narrower": 130, "boxed": 50, "wedged": 50, "window": 4, "snug": 2, "corner": 7, "tube": 4, "wound": 4}
 TAMPERED_OTHERS = 600  # of each other one
 
 # What may change in a proof that still holds: it has other numbers that show the same.
@@ -84,12 +88,12 @@ def planner(*arguments):
     return subprocess.run([PLANNER, *arguments], capture_output=True, text=True, check=False)
 
 
-def places(value, where=""):
-    """The addresses of all values below one."""
+def places(value, where=()):
+    """The addresses of all values below one, each as a tuple of keys."""
     entries = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
-    for key, entry in list(entries):
-        yield value, key, f"{where}/{key}"
-        yield from places(entry, f"{where}/{key}")
+    for key, entry in entries:
+        yield *where, key
+        yield from places(entry, (*where, key))
 
 
 def other(chance, value):
@@ -108,24 +112,46 @@ def other(chance, value):
     return chance.choice([[], {}, None, "0"])
 
 
-def tampered(chance, proof):
-    """A copy with one value changed, dropped, written twice or exchanged with another one; and where."""
-    result = copy.deepcopy(proof)
-    parent, key, where = chance.choice(list(places(result)))
-    kind = chance.randrange(4)
-    if kind == 0:
-        parent[key] = other(chance, parent[key])
-    elif kind == 1:
-        del parent[key]
-    elif kind == 2 and isinstance(parent, list):
-        parent.insert(key, copy.deepcopy(parent[key]))
+def address(place):
+    return "".join(f"/{key}" for key in place)
+
+
+def at(value, place):
+    """The value at an address."""
+    for key in place:
+        value = value[key]
+    return value
+
+
+def changed_at(value, place, change):
+    """A copy of a value that has a copy of the object or list at an address instead, changed; the rest is shared."""
+    result = copy.copy(value)
+    if place:
+        result[place[0]] = changed_at(value[place[0]], place[1:], change)
     else:
-        elsewhere, place, address = chance.choice(list(places(result)))
-        if address.startswith(where) or where.startswith(address):
-            return result, [where]
-        parent[key], elsewhere[place] = elsewhere[place], parent[key]
-        return result, [where, address]
-    return result, [where]
+        change(result)
+    return result
+
+
+def tampered(chance, proof, all_places):
+    """A copy with one value changed, dropped, written twice or exchanged with another one; and where. `all_places`: places of
+    the proof."""
+    place = chance.choice(all_places)
+    *above, key = place
+    value, kind = at(proof, place), chance.randrange(4)
+    if kind == 0:
+        changed = other(chance, value)
+        return changed_at(proof, above, lambda parent: operator.setitem(parent, key, changed)), [address(place)]
+    if kind == 1:
+        return changed_at(proof, above, lambda parent: operator.delitem(parent, key)), [address(place)]
+    if kind == 2 and isinstance(at(proof, above), list):
+        return changed_at(proof, above, lambda parent: parent.insert(key, value)), [address(place)]
+    elsewhere = chance.choice(all_places)
+    if elsewhere[:len(place)] == place or place[:len(elsewhere)] == elsewhere:
+        return proof, [address(place)]
+    result = changed_at(proof, above, lambda parent: operator.setitem(parent, key, at(proof, elsewhere)))
+    *above, key = elsewhere
+    return changed_at(result, above, lambda parent: operator.setitem(parent, key, value)), [address(place), address(elsewhere)]
 
 
 class Replay(unittest.TestCase):
@@ -175,9 +201,10 @@ class Replay(unittest.TestCase):
             arguments, text = self.prove(name, scene, path)
             _, digest = check.check(text)
             proof = json.loads(text)
+            all_places = list(places(proof))
             for _ in range(SEEDS * TAMPERED.get(name, TAMPERED_OTHERS)):
                 changes += 1
-                changed, where = tampered(chance, proof)
+                changed, where = tampered(chance, proof, all_places)
                 if changed == proof:
                     continue
                 try:
@@ -195,8 +222,9 @@ class Replay(unittest.TestCase):
             arguments, text = self.prove(name, scene, path)
             _, digest = check.check(text)
             proof = json.loads(text)
-            for _ in range(8 if name in ("window", "corner", "tube", "wound") else 40):
-                changed, where = tampered(chance, proof)
+            all_places = list(places(proof))
+            for _ in range(8 if name in ("window", "snug", "corner", "tube", "wound") else 40):
+                changed, where = tampered(chance, proof, all_places)
                 file = self.write("tampered.proof", json.dumps(changed))
                 try:
                     check.check(json.dumps(changed), digest)
@@ -212,4 +240,4 @@ class Replay(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=sys.argv[:1] + [f"Replay.{name}" for name in sys.argv[4:]])

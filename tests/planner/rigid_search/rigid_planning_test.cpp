@@ -7,19 +7,28 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <set>
 
 #include "apps/planner/free_space/collision.h"
+#include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid_search/certified_trees.h"
+#include "apps/planner/rigid_search/first_true.h"
+#include "apps/planner/rigid_search/pose_metric.h"
 #include "apps/planner/rigid_search/rotations.h"
 #include "apps/planner/rigid_search/shorten_poses.h"
 #include "apps/planner/rigid_search/slice_search.h"
 #include "apps/planner/rigid_search/slices.h"
+#include "nef/base/error.h"
 #include "nef/base/timing/time_limit.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
 #include "tests/support/shapes/fixed_cases.h"
+
+#ifdef PLANNER_TEST_FCL
+#include "bench/planner/fcl_bodies.h"
+#endif
 
 namespace nef::planner::test::rigid_planning {
 namespace {
@@ -34,6 +43,29 @@ bool in_lowest_terms(const Rational& x) {
   Rational reduced = x;
   reduced.canonicalize();
   return reduced.get_den() == x.get_den();
+}
+
+// FCL's verdict in doubles about 2,000 poses of each motion that touches nothing.
+void check_by_fcl([[maybe_unused]] const MotionChecker& checker, [[maybe_unused]] const RigidAnswer& answer) {
+#ifdef PLANNER_TEST_FCL
+  const std::shared_ptr<FclModel> robot = fcl_model_of(checker.robot());
+  const std::shared_ptr<FclModel> obstacles = fcl_model_of(checker.obstacles());
+  constexpr int kPoses = 2000;
+  for (std::size_t i = 0; i + 1 < answer.path.size(); ++i) {
+    if (answer.certified.motions[i].touches) continue;
+    const RigidMotion motion(answer.path[i], answer.path[i + 1], MotionTiming::kSlerp);
+    int collide = 0;
+    for (int k = 0; k <= kPoses; ++k) {
+      const RigidPose pose = motion.at(static_cast<double>(k) / kPoses);
+      fcl::Transform3d place = fcl::Transform3d::Identity();
+      place.linear() = PoseMetric::rounded(pose.quaternion).toRotationMatrix();
+      place.translation() = to_vector(pose.position);
+      if (fcl_collides(*robot, place, *obstacles)) ++collide;
+    }
+    CAPTURE(i);
+    CHECK(collide == 0);
+  }
+#endif
 }
 
 // The ends are those of the question, the parts are certified, and no pose of some collides.
@@ -51,6 +83,7 @@ void check_path(const Scene& scene, const RigidAnswer& answer, std::size_t poses
   }
   const MotionChecker checker = MotionChecker::of_scene(scene);
   CHECK(certify(checker, answer.path).status == MotionVerdict::Status::kFree);
+  check_by_fcl(checker, answer);
   const std::size_t motions = answer.path.size() - 1;
   const std::size_t steps = poses / motions + 1;
   for (std::size_t i = 0; i < motions; ++i) {
@@ -97,7 +130,26 @@ TEST_CASE("Two turns lead an L through a window", "[rigid]") {
   const std::string wider = R"J({"robot": "box(0,0,0, 1,1,1)",
       "obstacles": ["box(-20,4,-20, 20,33/8,20) - box(-1,4,-1, 1,5,1)"]})J";
   scene.obstacles = scene_of(wider).obstacles;
-  check_path(scene, answer_of(scene), 40);
+  const RigidAnswer answer = answer_of(scene);
+  check_path(scene, answer, 40);
+  const RigidAnswer on_threads = answer_of(scene, {}, Monitor().on_threads(3));
+  CHECK(on_threads.slices == answer.slices);
+  REQUIRE(on_threads.path.size() == answer.path.size());
+  for (std::size_t i = 0; i < answer.path.size(); ++i) {
+    CHECK(on_threads.path[i].position == answer.path[i].position);
+    CHECK(on_threads.path[i].quaternion == answer.path[i].quaternion);
+  }
+}
+
+TEST_CASE("A bent tube passes two holes at once", "[rigid]") {
+  Scene scene = load("rigid/bent_tube");
+  // Wider holes than those of the file, which take seconds.
+  const std::string wider = R"J({"robot": "box(0,0,0, 1,1,1)",
+      "obstacles": ["box(0,-9,-9, 1/8,9,9) - box(-1,-1,-1, 1,1,1)", "box(2,-9,-9, 17/8,9,9) - box(1,1,-1, 3,3,1)"]})J";
+  scene.obstacles = scene_of(wider).obstacles;
+  const RigidAnswer answer = answer_of(scene);
+  check_path(scene, answer, 40);
+  CHECK(answer.slices > 0);
 }
 
 TEST_CASE("Where there is room no slices are needed", "[rigid]") {
@@ -108,6 +160,11 @@ TEST_CASE("Where there is room no slices are needed", "[rigid]") {
   const RigidAnswer answer = answer_of(scene, {.max_slices = 0, .max_samples = 2000});
   check_path(scene, answer, 100);
   CHECK(answer.slices == 0);
+  const RigidAnswer on_threads =
+      answer_of(scene, {.max_slices = 0, .max_samples = 2000}, Monitor().on_threads(3));  // by samples
+  CHECK(on_threads.samples == answer.samples);
+  REQUIRE(on_threads.path.size() == answer.path.size());
+  for (std::size_t i = 0; i < answer.path.size(); ++i) CHECK(on_threads.path[i].position == answer.path[i].position);
   // Straight to a goal nearby; no search at all.
   Scene near = scene;
   near.goal = near.start;
@@ -117,6 +174,38 @@ TEST_CASE("Where there is room no slices are needed", "[rigid]") {
   // Stopped at once.
   const TimeLimit limit(0);
   CHECK(answer_of(scene, {}, limit.monitor()).status == Status::kUndecided);
+}
+
+TEST_CASE("The first trial that succeeds is the same on any number of threads", "[rigid]") {
+  for (const unsigned threads : {1U, 3U}) {
+    const Monitor monitor = Monitor().on_threads(threads);
+    CHECK(first_true(0, monitor, [](std::size_t, const Monitor&) { return true; }) == 0);
+    CHECK(first_true(9, monitor, [](std::size_t, const Monitor&) { return false; }) == 9);
+    CHECK(first_true(99, monitor, [](std::size_t i, const Monitor&) { return i % 10 == 7; }) == 7);
+    // What is thrown behind it does not matter, what is thrown before it does.
+    const auto trial = [](std::size_t failing) {
+      return [failing](std::size_t i, const Monitor&) {
+        if (i == failing) throw InputError("it fails");
+        return i == 20;
+      };
+    };
+    CHECK(first_true(99, monitor, trial(21)) == 20);
+    CHECK_THROWS_AS(first_true(99, monitor, trial(19)), InputError);
+  }
+}
+
+TEST_CASE("A proof that takes more boxes than its first turn has is found before slices are made", "[rigid]") {
+  const std::string text =
+      R"J({"robot": "box(-1,-1,-1/4, 1,1,1/4)", "rotation": "SO(3)", "box": [[-5,-5,-5],[5,5,5]],
+      "obstacles": ["box(-1/4,-6,-6, 1/4,6,6) - box(-1,-9/10,-3/8, 1,9/10,3/8)"],
+      "start": {"position": [-3,0,0], "quaternion": [1,0,0,0]}, "goal": {"position": [3,0,0], "quaternion": [1,2,0,0]}})J";
+  const RigidAnswer answer = answer_of(scene_of(text), {.max_samples = 100});
+  REQUIRE(answer.status == Status::kInfeasible);
+  CHECK(answer.boxes > 2500);  // those of its first turn
+  CHECK(answer.slices == 0);
+  const RigidAnswer on_threads = answer_of(scene_of(text), {.max_samples = 100}, Monitor().on_threads(3));
+  REQUIRE(on_threads.proof);
+  CHECK(proof_text(*on_threads.proof) == proof_text(*answer.proof));
 }
 
 TEST_CASE("Start and goal that are not free are said to be, with what they hit", "[rigid]") {
@@ -148,8 +237,8 @@ TEST_CASE("The symmetries of a robot are found, and slices are shared", "[rigid]
   Slices slices = slices_of("box(-2,-1,-1, 2,1,1)");
   const Slice& slice = slices.at({1, 0, 0, 0}, {});
   CHECK(&slices.at({0, 1, 0, 0}, {}) == &slice);
-  CHECK(slices.has({1, 1, 0, 0}));
-  CHECK_FALSE(slices.has({1, 0, 0, 1}));
+  CHECK(slices.shared({1, 1, 0, 0}) == slices.shared({1, 0, 0, 0}));
+  CHECK(slices.shared({1, 0, 0, 1}) != slices.shared({1, 0, 0, 0}));
   REQUIRE(slice.components.size() == 1);
   CHECK(slice.component_at({0, 0, 0}) == std::size_t{0});
   CHECK_FALSE(slice.component_at({4, 4, 4}));
@@ -261,6 +350,16 @@ TEST_CASE("A cube does not pass a smaller window however it is turned", "[rigid]
   CHECK_THAT(run.out, Catch::Contains("infeasible at every orientation"));
   CHECK_THAT(text_of(folder.file("w.json")), Catch::Contains(R"("status": "infeasible")"));
   CHECK(planner(folder, window + " --check-proof " + folder.file("w.proof")).code == 0);
+  // Stopped before: what of the barrier is in question is told.
+  std::string wider = text;  // which takes more boxes
+  wider.replace(wider.find("box(-1,-1/4,-1/4, 1,1/4,1/4)"), 28, "box(-1,-19/40,-19/40, 1,19/40,19/40)");
+  const Run stopped =
+      planner(folder, folder.write("wider.json", wider) + " --max-cells 1 -o " + folder.file("stopped.json"));
+  CHECK(stopped.code == 5);
+  CHECK_THAT(stopped.out, Catch::Contains("may not be blocked at all orientations"));
+  const nlohmann::json report = nlohmann::json::parse(text_of(folder.file("stopped.json")));
+  CHECK(report["in_question"]["reference"].size() == 3);
+  CHECK_FALSE(report["in_question"]["boxes"].empty());
 }
 
 TEST_CASE("The program plans for robots that turn freely", "[rigid]") {

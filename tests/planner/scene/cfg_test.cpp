@@ -50,6 +50,16 @@ TEST_CASE("one rotation for start and goal turns the robot once, two let it turn
   CHECK(nlohmann::json::parse(no_report.out)["motions"] == "translation");
   CHECK_THAT(no_report.err, Catch::Contains("OMPL.app's robots turn freely"));
   CHECK(planner(folder, problem("wall_turned.cfg") + " --json --quiet").err.empty());
+  // Free to turn, it comes upright first and passes the hole, which is as wide as the robot.
+  const Run free = planner(folder, problem("wall_turned.cfg") + " --turn-freely --json");
+  CHECK(free.code == 0);
+  const nlohmann::json way = nlohmann::json::parse(free.out);
+  CHECK(way["motions"] == "rigid");
+  CHECK(way["path"].size() > 3);
+  CHECK(free.err.find("OMPL.app's robots turn freely") == std::string::npos);
+  const Run refused = planner(folder, scene("corner") + " --turn-freely");
+  CHECK(refused.code == 2);
+  CHECK_THAT(refused.err, Catch::Contains("only the robots of .cfg files are made to turn freely"));
   const Run run = planner(folder, problem("wall_rotating.cfg") + " --json");
   CHECK(run.code == 0);
   const nlohmann::json report = nlohmann::json::parse(run.out);

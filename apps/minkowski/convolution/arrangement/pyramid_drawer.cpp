@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "nef/base/error.h"
+#include "nef/geometry/compare_points.h"
 
 namespace nef::minkowski {
 namespace {
@@ -18,12 +19,13 @@ LabelId PyramidDrawer::label(std::uint8_t in_sum) const {
 }
 
 // Of the sides of a facet at a point of its border, and of the point.
-PyramidDrawer::BorderLabels PyramidDrawer::border_labels(std::uint32_t facet, PointId point) const {
+PyramidDrawer::BorderLabels PyramidDrawer::border_labels(std::uint32_t facet, const PointTable& points,
+                                                         PointId point) const {
   if (facets_.marks != BoundaryMarks::kMixed) return {label(0), label(0), label(0)};
   const auto ring = facets_.ring(facet);
   const std::uint32_t begin = facets_.begin[facet];
   const auto order = [&](std::uint32_t corner, int axis) {
-    return compare_coordinate(facets_.points, point, PointId{ring[corner]}, axis, monitor_);
+    return compare_coordinate(points, point, facets_.points, PointId{ring[corner]}, axis, monitor_);
   };
   for (std::uint32_t i = 0; i < ring.size(); ++i) {
     if (order(i, 0) != 0 || order(i, 1) != 0 || order(i, 2) != 0) continue;
@@ -36,7 +38,7 @@ PyramidDrawer::BorderLabels PyramidDrawer::border_labels(std::uint32_t facet, Po
     const std::uint32_t next = i + 1 < ring.size() ? i + 1 : 0;
     bool between = true;
     for (int axis = 0; axis < 3 && between; ++axis) between = order(i, axis) * order(next, axis) <= 0;
-    if (!between || !is_on_side(facet, i, point)) continue;
+    if (!between || !is_on_side(facet, i, points, point)) continue;
     const LabelId mark = label(facets_.side_marks[begin + i]);
     return {mark, mark, mark};
   }
@@ -44,9 +46,8 @@ PyramidDrawer::BorderLabels PyramidDrawer::border_labels(std::uint32_t facet, Po
   return {};
 }
 
-bool PyramidDrawer::is_on_side(std::uint32_t facet, std::uint32_t side, PointId point) const {
-  const PlaneId plane = pyramids_.known_side_plane(facet, side);
-  return plane.valid() && side_of_plane(facets_.planes, plane, facets_.points, point, monitor_) == 0;
+bool PyramidDrawer::is_on_side(std::uint32_t facet, std::uint32_t side, const PointTable& points, PointId point) const {
+  return side_of_plane(facets_.planes, pyramids_.side_plane(facet, side), points, point, monitor_) == 0;
 }
 
 bool PyramidDrawer::is_void(std::uint32_t facet) const {
@@ -60,7 +61,7 @@ bool PyramidDrawer::is_void(std::uint32_t facet) const {
 
 // With its inside to the left, the side of a plane S runs along n_S x n_P. At a corner the facet goes counterclockwise
 // from the side that leaves to the one that arrives, backwards.
-void PyramidDrawer::draw_facet(const FacetAtPoint& at, PointId point) {
+void PyramidDrawer::draw_facet(const FacetAtPoint& at, const PointTable& points, PointId point) {
   const PlaneId plane = facets_.plane[at.facet];
   const LabelId bits = outside_mark(plane);
   const std::uint8_t inside = facets_.marks == BoundaryMarks::kMixed ? facets_.inside_marks[at.facet] : 0;
@@ -72,7 +73,7 @@ void PyramidDrawer::draw_facet(const FacetAtPoint& at, PointId point) {
                                          Direction::cross(planes, at.sides[leaving], plane), monitor_) < 0) {
     std::swap(leaving, arriving);
   }
-  const BorderLabels border = border_labels(at.facet, point);
+  const BorderLabels border = border_labels(at.facet, points, point);
   centre_ |= bits | border.centre;
   const DrawnArcs::End source = {Direction::cross(planes, at.sides[leaving], plane),
                                  static_cast<LabelId>(bits | border.leaving), key_along(at, leaving, true)};
@@ -91,7 +92,7 @@ std::uint64_t PyramidDrawer::key_along(const FacetAtPoint& at, std::size_t side,
   return forward ? from << 32U | to : to << 32U | from;
 }
 
-SphereMapBuffer PyramidDrawer::draw(const std::vector<FacetAtPoint>& at, PointId point) {
+SphereMapBuffer PyramidDrawer::draw(const std::vector<FacetAtPoint>& at, const PointTable& points, PointId point) {
   SphereMapBuffer map;
   if (at.empty()) {
     map.assign_trivial(0);
@@ -122,7 +123,7 @@ SphereMapBuffer PyramidDrawer::draw(const std::vector<FacetAtPoint>& at, PointId
     if (!f.sides[0].valid()) continue;
     const auto under = find_whole(facets_.plane[f.facet]);
     if (under != whole.end() && ((under->mark & kInSum) != 0 || is_void(f.facet))) continue;
-    draw_facet(f, point);
+    draw_facet(f, points, point);
   }
   arcs_.finish(centre_, map);
   return map;

@@ -13,18 +13,15 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "apps/minkowski/convolution/arrangement/linked_intervals.h"
 #include "apps/minkowski/convolution/arrangement/meeting_facets.h"
 #include "apps/minkowski/minkowski.h"
 #include "nef/base/threads/parallel.h"
-#include "nef/geometry/search/box_tree.h"
-#include "nef/mesh/edge_order.h"
 
 namespace nef::minkowski {
 namespace {
-
-using Sides = std::unordered_map<std::uint64_t, std::vector<std::uint32_t>>;  // the facets at each, by its key
 
 // Where a facet meets a segment.
 struct Event {
@@ -49,7 +46,7 @@ class SegmentCutter {
  public:
   // All must outlive the object.
   SegmentCutter(const ConvolutionFacets& facets, const RoundedFacets& rounded,
-                const std::vector<FacetSegment>& segments, const Sides& at_side, const MeetingFacets& meeting,
+                const std::vector<FacetSegment>& segments, const SharedSides& at_side, const MeetingFacets& meeting,
                 const SumMembership& membership, bool passages, const Monitor& monitor)
       : facets_(facets),
         rounded_(rounded),
@@ -74,7 +71,7 @@ class SegmentCutter {
   [[nodiscard]] bool ends_on(const SegmentEnd& end, std::uint32_t h) const {
     if (end.kind == SegmentEnd::Kind::kCorner) return has_corner(h, end.index);
     if (end.kind == SegmentEnd::Kind::kUnsure) return false;
-    const std::vector<std::uint32_t>& same = at_side_.at(side_key(facets_, end.facet, end.index));
+    const std::span<const std::uint32_t> same = at_side_(end.facet, end.index);
     return std::find(same.begin(), same.end(), h) != same.end();
   }
 
@@ -316,7 +313,7 @@ class SegmentCutter {
   void judge_end(const FacetSegment& s, Cut& cut, std::size_t side) const {
     const SegmentEnd& end = s.ends[cut.is_end[0] ? 0 : 1];
     if (end.kind != SegmentEnd::Kind::kSide) return;
-    const std::vector<std::uint32_t>& same = at_side_.at(side_key(facets_, end.facet, end.index));
+    const std::span<const std::uint32_t> same = at_side_(end.facet, end.index);
     if (same.size() == 1) cut.side[side].gone = true;  // beyond the side one comes from the front to the back
     if (same.size() != 2) return;
     const std::uint32_t beyond = same[0] == end.facet ? same[1] : same[0];
@@ -334,7 +331,7 @@ class SegmentCutter {
   const ConvolutionFacets& facets_;
   const RoundedFacets& rounded_;
   const std::vector<FacetSegment>& segments_;
-  const Sides& at_side_;
+  const SharedSides& at_side_;
   const MeetingFacets& meeting_;
   bool passages_;
   InsideSearch inside_;  // what is done with a chunk of segments does not depend on threads
@@ -344,55 +341,43 @@ class SegmentCutter {
   std::vector<Cut> cuts_;
 };
 
-Sides facets_at_sides(const ConvolutionFacets& facets) {
-  Sides result;
-  for (std::uint32_t f = 0; f < facets.size(); ++f) {
-    for (std::uint32_t i = 0; i < facets.ring(f).size(); ++i) result[side_key(facets, f, i)].push_back(f);
-  }
-  return result;
-}
-
 // Segments of pairs of facets, and corners that may touch facets.
 struct FoundSegments {
   std::vector<FacetSegment> segments;
   std::vector<std::uint32_t> touching;
-
-  void append(const FoundSegments& other) {
-    segments.insert(segments.end(), other.segments.begin(), other.segments.end());
-    touching.insert(touching.end(), other.touching.begin(), other.touching.end());
-  }
 };
 
-using FacetPair = std::array<std::uint32_t, 2>;
-
-void add_segments_of(std::span<const FacetPair> pairs, const ConvolutionFacets& facets, const RoundedFacets& rounded,
-                     bool passages, FoundSegments& result, const Monitor& monitor) {
-  constexpr std::size_t kChunk = 2048;
-  std::vector<FoundSegments> found((pairs.size() + kChunk - 1) / kChunk);
-  parallel_for(found.size(), monitor, [&](std::size_t chunk, const Monitor& own) {
-    SegmentFinder finder(facets, rounded, own);
-    for (const auto& [f, g] : pairs.subspan(chunk * kChunk, std::min(kChunk, pairs.size() - chunk * kChunk))) {
-      if (std::optional<FacetSegment> s = finder.find(f, g)) found[chunk].segments.push_back(*s);
-    }
-    if (passages) found[chunk].touching = finder.touching_corners();
+// In order.
+FoundSegments joined(std::vector<FoundSegments>&& found, const Monitor& monitor) {
+  std::vector<std::size_t> begin(found.size() + 1, 0);
+  for (std::size_t i = 0; i < found.size(); ++i) begin[i + 1] = begin[i] + found[i].segments.size();
+  FoundSegments result;
+  result.segments.resize(begin.back());
+  parallel_for(found.size(), for_vertices(begin.back(), monitor), [&](std::size_t i, const Monitor&) {
+    std::copy(found[i].segments.begin(), found[i].segments.end(),
+              result.segments.begin() + static_cast<std::ptrdiff_t>(begin[i]));
+    found[i].segments = {};
   });
-  for (const FoundSegments& part : found) result.append(part);
+  for (const FoundSegments& part : found) {
+    result.touching.insert(result.touching.end(), part.touching.begin(), part.touching.end());
+  }
+  return result;
 }
 
-// Blocks of pairs keep memory low and give several threads something to do.
-FoundSegments all_segments(const ConvolutionFacets& facets, const RoundedFacets& rounded, bool passages,
-                           const Monitor& monitor) {
-  constexpr std::size_t kBlock = std::size_t{1} << 17U;
-  FoundSegments result;
-  std::vector<FacetPair> pairs;
-  BoxTree(rounded.boxes()).for_each_pair([&](std::uint32_t f, std::uint32_t g) {
-    pairs.push_back({f, g});
-    if (pairs.size() < kBlock) return;
-    add_segments_of(pairs, facets, rounded, passages, result, monitor);
-    pairs.clear();
+FoundSegments all_segments(const ConvolutionFacets& facets, const RoundedFacets& rounded, const BoxTree& tree,
+                           bool passages, const Monitor& monitor) {
+  constexpr std::size_t kFacetsOfPart = 512;
+  const BoxTree::PairSearch search(tree);
+  const std::vector<BoxTree::PairSearch::Part> parts = search.parts(facets.size() / kFacetsOfPart + 1);
+  std::vector<FoundSegments> found(parts.size());
+  parallel_for(parts.size(), monitor, [&](std::size_t i, const Monitor& own) {
+    SegmentFinder finder(facets, rounded, own);
+    search.for_each(parts[i], [&](std::uint32_t f, std::uint32_t g) {
+      if (std::optional<FacetSegment> s = finder.find(f, g)) found[i].segments.push_back(*s);
+    });
+    if (passages) found[i].touching = finder.touching_corners();
   });
-  add_segments_of(pairs, facets, rounded, passages, result, monitor);
-  return result;
+  return joined(std::move(found), monitor);
 }
 
 void append(const CutSegments& part, CutSegments& all) {
@@ -410,10 +395,10 @@ void append(const CutSegments& part, CutSegments& all) {
 }
 
 CutSegments cut_segments(const ConvolutionFacets& facets, const RoundedFacets& rounded,
-                         const std::vector<FacetSegment>& segments, const Sides& at_side,
+                         const std::vector<FacetSegment>& segments, const SharedSides& at_side,
                          const SumMembership& membership, bool passages, const Monitor& monitor) {
   constexpr std::size_t kChunk = 256;
-  constexpr std::size_t kBlock = 16 * kChunk;
+  constexpr std::size_t kBlock = 64 * kChunk;
   const MeetingFacets meeting(facets.size(), segments);
   CutSegments result;
   for (std::size_t block = 0; block < segments.size(); block += kBlock) {
@@ -432,21 +417,14 @@ CutSegments cut_segments(const ConvolutionFacets& facets, const RoundedFacets& r
 
 }  // namespace
 
-std::uint64_t side_key(const ConvolutionFacets& facets, std::uint32_t facet, std::uint32_t side) {
-  const auto ring = facets.ring(facet);
-  const std::uint32_t u = ring[side];
-  const std::uint32_t v = ring[side + 1 < ring.size() ? side + 1 : 0];
-  return edge_key(u, v);
-}
-
 SurvivingIntervals surviving_intervals(const ConvolutionFacets& facets, const RoundedFacets& rounded,
-                                       const SumMembership& membership, bool passages, const Monitor& monitor) {
-  Sides at_side = facets_at_sides(facets);
-  FoundSegments found = all_segments(facets, rounded, passages, monitor);
+                                       const BoxTree& tree, const SharedSides& at_side, const SumMembership& membership,
+                                       bool passages, const Monitor& monitor) {
+  FoundSegments found = all_segments(facets, rounded, tree, passages, monitor);
   CutSegments cut = cut_segments(facets, rounded, found.segments, at_side, membership, passages, monitor);
   remove_linked(std::move(cut.links), cut.intervals);
-  return {std::move(found.segments), std::move(cut.cuts),       std::move(cut.cutting), std::move(cut.intervals),
-          std::move(cut.doubtful),   std::move(found.touching), std::move(at_side)};
+  return {std::move(found.segments), std::move(cut.cuts),     std::move(cut.cutting),
+          std::move(cut.intervals),  std::move(cut.doubtful), std::move(found.touching)};
 }
 
 }  // namespace nef::minkowski

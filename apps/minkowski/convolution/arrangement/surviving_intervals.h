@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "apps/minkowski/convolution/arrangement/facet_segments.h"
+#include "apps/minkowski/convolution/arrangement/shared_sides.h"
 #include "apps/minkowski/convolution/marks/sum_membership.h"
 #include "nef/base/monitor.h"
+#include "nef/geometry/search/box_tree.h"
 
 namespace nef::minkowski {
 
@@ -37,20 +39,17 @@ struct SurvivingIntervals {
   /// general position, as segments and cuts, and corners that may touch other facets.
   std::vector<std::array<std::uint32_t, 2>> doubtful;
   std::vector<std::uint32_t> touching;
-  /// Facets that share a side, by the key of its two corners.
-  std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> at_side;
 };
-
-/// The key of a side in SurvivingIntervals::at_side.
-std::uint64_t side_key(const ConvolutionFacets& facets, std::uint32_t facet, std::uint32_t side);
 
 /// All segments, cut where they meet other facets, without intervals at which surely nothing is to be seen but the
 /// inside of the sum: a point of them is seen to be inside (`membership`, a grid); or a facet crosses at one end that
 /// has them behind it: just behind a facet is inside, up to the next one. Where three facets cross, and no other is
 /// there, one octant is in front of all three; if one of its three edges goes, so do the others.
-/// `passages`: find doubtful cuts and touching corners, too. The monitor is told of kSumPhase.
-/// In doubles: what is not sure, stays. O(n log n + k) for k pairs of segments on one facet whose boxes overlap.
+/// `tree` is over the boxes of the facets. `passages`: find doubtful cuts and touching corners, too. The monitor is
+/// told of kSumPhase. In doubles: what is not sure, stays. O(n log n + k) for k pairs of segments on one facet whose
+/// boxes overlap.
 SurvivingIntervals surviving_intervals(const ConvolutionFacets& facets, const RoundedFacets& rounded,
-                                       const SumMembership& membership, bool passages, const Monitor& monitor);
+                                       const BoxTree& tree, const SharedSides& at_side, const SumMembership& membership,
+                                       bool passages, const Monitor& monitor);
 
 }  // namespace nef::minkowski

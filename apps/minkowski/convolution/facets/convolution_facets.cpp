@@ -1,34 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Three kinds of sums, each found by exact signs: a facet with the peaks and parallel edges that it touches, two
-// parallel facets (by `planar_sum`; where marks differ, their convex pieces are added pair by pair), and two convex
-// edges whose arcs of normals cross on the sphere (a parallelogram). Signs are found on several threads, facets are
-// added on one, in the order of the features, so that the result does not depend on the threads.
+// parallel facets (by `planar_sum`; where marks differ, their convex pieces are added pair by pair, and their sides and
+// corners, if the marks inside of these sums differ, too), and two convex edges whose arcs of normals cross on the
+// sphere (a parallelogram). They are found on several threads, in lists by the order of the features, so that the
+// result does not depend on the threads (`numbered_facets`).
 #include "apps/minkowski/convolution/facets/convolution_facets.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "apps/minkowski/convolution/facets/convex_pieces.h"
+#include "apps/minkowski/convolution/facets/facet_list.h"
+#include "apps/minkowski/convolution/facets/numbered_facets.h"
 #include "apps/minkowski/convolution/facets/polygon_sum.h"
 #include "apps/minkowski/planar/planar_sum.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/geometry/integer_vector.h"
-#include "nef/geometry/plane_finder.h"
+
 #include "nef/geometry/vectors.h"
 #include "nef/mesh/edge_order.h"
 
 namespace nef::minkowski {
 namespace {
 
-// A vertex of A and one of B.
-struct Pair {
-  std::uint32_t a = 0, b = 0;
-};
-
 // How a plane with this normal is looked at from outside.
-PlanarFrame frame_across(const Direction& normal) {
-  const Integer3& n = normal.integers();
+PlanarFrame frame_across(const Integer3& n) {
   PlanarFrame frame;
   for (std::size_t i = 1; i < 3; ++i) {
     if (abs(n[i]) > abs(n[frame.axis])) frame.axis = i;
@@ -113,49 +110,41 @@ class FeatureBoxes {
   BoxTree vertex_tree_, edge_tree_;
 };
 
+// Finds the facets of a convolution, in lists of its own for each range of features, so that their order does not
+// depend on the threads.
 class Convolution {
  public:
   Convolution(const SolidFeatures& a, const SolidFeatures& b, const Monitor& monitor, const NearOrigin& near)
       : a_(a), b_(b), monitor_(monitor), near_(near), boxes_a_(a, near), boxes_b_(b, near) {
-    result_.marks = marks_of_sum(a.marks(), b.marks());
+    marks_ = marks_of_sum(a.marks(), b.marks());
   }
 
   ConvolutionFacets run() {
     touch_facets(false);
     touch_facets(true);
-    for (std::size_t i = 0; i < a_.facets().size(); ++i) {
-      const SolidFacet& f = a_.facets()[i];
-      const Box box = boxes_a_.facet(i);
-      for (std::size_t j = 0; j < b_.facets().size(); ++j) {
-        const SolidFacet& g = b_.facets()[j];
-        if (!near_.is_all() && !near_.may_hold(box, boxes_b_.facet(j))) continue;
-        if (same_direction(f.normal, g.normal, monitor_)) add_parallel_facets(f, g);
-      }
-    }
+    add_parallel_facets();
     cross_edges();
-    drop_covered();
-    return std::move(result_);
+    return numbered_facets(a_, b_, marks_, std::move(lists_), monitor_);
   }
 
  private:
-  [[nodiscard]] bool mixed() const { return result_.marks == BoundaryMarks::kMixed; }
+  [[nodiscard]] bool mixed() const { return marks_ == BoundaryMarks::kMixed; }
 
-  // What of the other solid a facet touches.
-  struct Touched {
-    std::vector<std::uint32_t> peaks, edges;
-  };
-
-  static Touched touched_by(const SolidFacet& facet, const Box& box, const SolidFeatures& theirs,
-                            const FeatureBoxes& boxes, const Monitor& own) {
-    Touched result;
-    boxes.for_each_vertex(theirs.points().size(), box, [&](std::uint32_t v) {
-      if (theirs.is_peak(v, facet.normal, own)) result.peaks.push_back(v);
-    });
-    boxes.for_each_edge(theirs.edges().size(), box, [&](std::uint32_t e) {
-      const ConvexEdge& edge = theirs.edges()[e];
-      if (sign_of_dot(edge.line, facet.normal, own) == 0 && edge.touches(facet.normal, own)) result.edges.push_back(e);
-    });
-    return result;
+  // add(i, list, own) for i = 0 .. count - 1, in ranges with a list each.
+  template <typename Add>
+  void add_in_ranges(std::size_t count, const Add& add) {
+    constexpr std::size_t kMostRanges = 256;
+    const std::size_t range = (count + kMostRanges - 1) / kMostRanges;
+    const std::size_t before = lists_.size();
+    lists_.resize(before + (count == 0 ? 0 : (count + range - 1) / range), FacetList(mixed()));
+    parallel_for_ranges(count, std::max<std::size_t>(range, 1), monitor_,
+                        [&](std::size_t from, std::size_t to, const Monitor& own) {
+                          FacetList& list = lists_[before + from / range];
+                          for (std::size_t i = from; i < to; ++i) {
+                            own.check_interruption();
+                            add(i, list, own);
+                          }
+                        });
   }
 
   // Facets of one solid (B if swapped) with edges and vertices of the other one.
@@ -164,149 +153,136 @@ class Convolution {
     const SolidFeatures& theirs = swapped ? a_ : b_;
     const FeatureBoxes& our_boxes = swapped ? boxes_b_ : boxes_a_;
     const FeatureBoxes& their_boxes = swapped ? boxes_a_ : boxes_b_;
-    std::vector<Touched> touched(ours.facets().size());
-    parallel_for(touched.size(), monitor_, [&](std::size_t f, const Monitor& own) {
-      touched[f] = touched_by(ours.facets()[f], our_boxes.facet(f), theirs, their_boxes, own);
-    });
-    for (std::size_t f = 0; f < touched.size(); ++f) {
-      monitor_.check_interruption();
+    add_in_ranges(ours.facets().size(), [&](std::size_t f, FacetList& list, const Monitor& own) {
       const SolidFacet& facet = ours.facets()[f];
-      for (const std::uint32_t v : touched[f].peaks) {
-        for (const FacetPiece& piece : facet.pieces) add_moved(ours, piece, theirs, v, swapped, facet.normal);
-      }
-      for (const std::uint32_t e : touched[f].edges) {
+      const PlaneNormal normal = ours.normal(facet.plane);
+      const Box box = our_boxes.facet(f);
+      their_boxes.for_each_vertex(theirs.points().size(), box, [&](std::uint32_t v) {
+        if (!theirs.is_peak(v, normal, own)) return;
+        for (const FacetPiece& piece : facet.pieces) add_moved(list, ours, piece, theirs, v, swapped, facet.plane);
+      });
+      their_boxes.for_each_edge(theirs.edges().size(), box, [&](std::uint32_t e) {
         const ConvexEdge& edge = theirs.edges()[e];
+        if (theirs.lines().sign_of_dot(edge.line, normal, own) != 0 || !theirs.touches(edge, normal, own)) return;
         const FacetPiece segment{{edge.from, edge.to}, {edge.mark, edge.mark}, edge.mark};
-        for (const FacetPiece& piece : facet.pieces) add_sum(ours, piece, theirs, segment, swapped, facet.normal);
-      }
-    }
+        for (const FacetPiece& piece : facet.pieces) {
+          add_sum(list, ours, piece, theirs, segment, swapped, facet.plane);
+        }
+      });
+    });
   }
 
-  void add_parallel_facets(const SolidFacet& f, const SolidFacet& g) {
+  // Pairs are found on several threads; the few that there are, as a rule, are added by this one, as one planar sum may
+  // be large.
+  void add_parallel_facets() {
+    std::vector<PlaneNormal> of_b;
+    of_b.reserve(b_.facets().size());
+    for (const SolidFacet& facet : b_.facets()) of_b.push_back(b_.normal(facet.plane));
+    std::vector<std::vector<std::uint32_t>> parallel(a_.facets().size());
+    constexpr std::size_t kAtOnce = 256;
+    parallel_for_ranges(parallel.size(), kAtOnce, monitor_, [&](std::size_t from, std::size_t to, const Monitor& own) {
+      for (std::size_t i = from; i < to; ++i) {
+        const Box box = boxes_a_.facet(i);
+        const PlaneNormal normal = a_.normal(a_.facets()[i].plane);
+        for (std::uint32_t j = 0; j < of_b.size(); ++j) {
+          if (!near_.is_all() && !near_.may_hold(box, boxes_b_.facet(j))) continue;
+          if (same_direction(normal, of_b[j], own)) parallel[i].push_back(j);
+        }
+      }
+    });
+    FacetList list(mixed());
+    for (std::size_t i = 0; i < parallel.size(); ++i) {
+      for (const std::uint32_t j : parallel[i]) add_sum_of_facets(list, a_.facets()[i], b_.facets()[j]);
+    }
+    lists_.push_back(std::move(list));
+  }
+
+  void add_sum_of_facets(FacetList& list, const SolidFacet& f, const SolidFacet& g) {
     if (!mixed() && f.pieces.size() * g.pieces.size() > 1 && is_polygon(f) && is_polygon(g)) {
-      add_planar_sum(f, g);
+      add_planar_sum(list, f, g);
       return;
     }
     for (const FacetPiece& p : f.pieces) {
-      for (const FacetPiece& q : g.pieces) add_sum(a_, p, b_, q, false, f.normal);
+      for (const FacetPiece& q : g.pieces) add_sum(list, a_, p, b_, q, false, f.plane);
     }
-  }
-
-  // Facets that lie inside of the sum as far as a grid tells; few facets are not worth one.
-  void drop_covered() {
-    constexpr std::size_t kFew = 500;
-    if (result_.size() < kFew) return;
-    const auto cells = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(result_.size())));
-    result_.covered = CoveredVoxels(a_, b_, std::min(cells, 128U));
-    std::vector<Double3> polygon;
-    std::uint32_t kept = 0;
-    std::uint32_t end = 0;  // of the corners that are kept
-    for (std::uint32_t f = 0; f < result_.size(); ++f) {
-      monitor_.check_interruption();
-      const std::uint32_t first = result_.begin[f];
-      const std::uint32_t last = result_.begin[f + 1];
-      polygon.clear();
-      for (const std::uint32_t c : result_.ring(f)) polygon.push_back(result_.rounded[c]);
-      result_.begin[kept] = end;
-      if (result_.covered.cover(polygon)) continue;
-      result_.plane[kept] = result_.plane[f];
-      if (mixed()) result_.inside_marks[kept] = result_.inside_marks[f];
-      for (std::uint32_t c = first; c < last; ++c, ++end) {
-        result_.corners[end] = result_.corners[c];
-        if (!mixed()) continue;
-        result_.corner_marks[end] = result_.corner_marks[c];
-        result_.side_marks[end] = result_.side_marks[c];
-      }
-      ++kept;
-    }
-    result_.begin[kept] = end;
-    result_.begin.resize(kept + 1);
-    result_.plane.resize(kept);
-    result_.corners.resize(end);
-    if (!mixed()) return;
-    result_.inside_marks.resize(kept);
-    result_.corner_marks.resize(end);
-    result_.side_marks.resize(end);
   }
 
   // The sum of two facets, as a whole, cut into convex pieces: by far fewer than the sums of their pieces, which
   // overlap.
-  void add_planar_sum(const SolidFacet& f, const SolidFacet& g) {
+  void add_planar_sum(FacetList& list, const SolidFacet& f, const SolidFacet& g) {
     const std::vector<std::uint32_t> of_f = vertices_around(f);
     const std::vector<std::uint32_t> of_g = vertices_around(g);
-    const PlanarFrame frame = frame_across(f.normal);
+    const PlanarFrame frame = frame_across(a_.normal(f.plane).integers());
     const PlanarSum sum = planar_sum(polygon_of(a_, f), polygon_of(b_, g), frame, monitor_);
-    std::vector<std::uint32_t> corners;
+    std::vector<std::uint64_t> corners;
     for (std::size_t i = 0; i < sum.points.size(); ++i) {
       const auto& [p, q] = sum.sources[i];
-      corners.push_back(p != kNone ? corner({of_f[p], of_g[q]}) : new_corner(sum.points[i]));
+      corners.push_back(p != kNone ? FacetList::sum_of(of_f[p], of_g[q]) : list.add_point(sum.points[i]));
     }
     const MeshPoints points(sum.points);
     for (const std::vector<std::uint32_t>& piece : ConvexPieces(points, monitor_).cut(sum.rings, frame)) {
-      for (const std::uint32_t i : piece) result_.corners.push_back(corners[i]);
-      push_facet(f.normal, 1);
+      for (const std::uint32_t i : piece) list.add_corner(corners[i], 1, 1);
+      list.end_facet({FacetList::Normal::Kind::kFacetOfA, f.plane}, 1);
     }
   }
+
+  // The ends of an arc of normals.
+  struct ArcEnds {
+    PlaneNormal first, last;
+  };
 
   // Each arc of normals lies on the great circle of its edge. Arcs cross iff the ends of each lie on both sides of the
   // other's circle, and cross where the circles do on the same side of the sphere. Walking along arc A, which runs
   // counterclockwise about edge a, one comes to the side `to` of b's circle at y with sign(y . (b x a)) = to. A circle
   // is crossed wherever the arc crosses it. The sign, or 0 for arcs that do not cross.
-  static int side_of_crossing(const ConvexEdge& a, const ConvexEdge& b, const Monitor& own) {
+  [[nodiscard]] int side_of_crossing(const ConvexEdge& a, const ArcEnds& of_a, const ConvexEdge& b,
+                                     const Monitor& own) const {
+    const auto side_of_a = [&](PlaneId end) { return a_.lines().sign_of_dot(a.line, b_.normal(end), own); };
+    const auto side_of_b = [&](const PlaneNormal& end) { return b_.lines().sign_of_dot(b.line, end, own); };
     if (a.is_bare) {
-      const int of_b = sign_of_dot(a.line, b.last, own);
-      return of_b != 0 && sign_of_dot(a.line, b.first, own) == -of_b ? -of_b : 0;
+      const int last = side_of_a(b.last);
+      return last != 0 && side_of_a(b.first) == -last ? -last : 0;
     }
-    const int of_a = sign_of_dot(b.line, a.last, own);
-    if (of_a == 0 || sign_of_dot(b.line, a.first, own) != -of_a) return 0;
-    if (b.is_bare) return of_a;
-    return sign_of_dot(a.line, b.last, own) == -of_a && sign_of_dot(a.line, b.first, own) == of_a ? of_a : 0;
+    const int last = side_of_b(of_a.last);
+    if (last == 0 || side_of_b(of_a.first) != -last) return 0;
+    if (b.is_bare) return last;
+    return side_of_a(b.last) == -last && side_of_a(b.first) == last ? last : 0;
   }
 
   void cross_edges() {
-    struct Crossing {
-      std::uint32_t b = 0;
-      int side = 0;
-    };
-    std::vector<std::vector<Crossing>> crossings(a_.edges().size());
-    parallel_for(crossings.size(), monitor_, [&](std::size_t i, const Monitor& own) {
+    add_in_ranges(a_.edges().size(), [&](std::size_t i, FacetList& list, const Monitor& own) {
       const ConvexEdge& a = a_.edges()[i];
+      const ArcEnds ends = a.is_bare ? ArcEnds() : ArcEnds{a_.normal(a.first), a_.normal(a.last)};
       boxes_b_.for_each_edge(b_.edges().size(), boxes_a_.edge(i), [&](std::uint32_t j) {
         const ConvexEdge& b = b_.edges()[j];
-        const int side = side_of_crossing(a, b, own);
-        if (side != 0) crossings[i].push_back({j, side});
+        // About b x a the edges a, b turn clockwise.
+        if (const int side = side_of_crossing(a, ends, b, own); side != 0) add_parallelogram(list, a, b, side > 0);
       });
     });
-    for (std::size_t i = 0; i < crossings.size(); ++i) {
-      monitor_.check_interruption();
-      const ConvexEdge& a = a_.edges()[i];
-      for (const Crossing& crossing : crossings[i]) {
-        const ConvexEdge& b = b_.edges()[crossing.b];
-        Direction normal = Direction::cross(b.line, a.line);
-        if (crossing.side < 0) normal = normal.negated();
-        // About b x a the edges a, b turn clockwise.
-        add_parallelogram(a, b, crossing.side > 0, normal);
-      }
-    }
   }
 
-  [[nodiscard]] static Pair pair(std::uint32_t own, std::uint32_t other, bool swapped) {
-    return swapped ? Pair{other, own} : Pair{own, other};
+  // The sum of a vertex of one solid and one of the other.
+  static std::uint64_t corner(std::uint32_t own, std::uint32_t other, bool swapped) {
+    return swapped ? FacetList::sum_of(other, own) : FacetList::sum_of(own, other);
+  }
+
+  static FacetList::Normal normal_of_facet(PlaneId plane, bool of_b) {
+    return {of_b ? FacetList::Normal::Kind::kFacetOfB : FacetList::Normal::Kind::kFacetOfA, plane};
   }
 
   // A piece of a facet and a vertex.
-  void add_moved(const SolidFeatures& ours, const FacetPiece& piece, const SolidFeatures& theirs, std::uint32_t v,
-                 bool swapped, const Direction& normal) {
+  void add_moved(FacetList& list, const SolidFeatures& ours, const FacetPiece& piece, const SolidFeatures& theirs,
+                 std::uint32_t v, bool swapped, PlaneId plane) {
     const std::uint8_t mark = theirs.mark(v);
     for (std::size_t i = 0; i < piece.ring.size(); ++i) {
-      push_corner(pair(piece.ring[i], v, swapped), ours.mark(piece.ring[i]) & mark, piece.sides[i] & mark);
+      list.add_corner(corner(piece.ring[i], v, swapped), ours.mark(piece.ring[i]) & mark, piece.sides[i] & mark);
     }
-    push_facet(normal, piece.mark & mark);
+    list.end_facet(normal_of_facet(plane, swapped), piece.mark & mark);
   }
 
-  void add_parallelogram(const ConvexEdge& a, const ConvexEdge& b, bool reversed, const Direction& normal) {
+  void add_parallelogram(FacetList& list, const ConvexEdge& a, const ConvexEdge& b, bool reversed) {
     const auto add = [&](std::uint32_t v, std::uint32_t w, std::uint8_t side) {
-      push_corner({v, w}, a_.mark(v) & b_.mark(w), side);
+      list.add_corner(FacetList::sum_of(v, w), a_.mark(v) & b_.mark(w), side);
     };
     const auto with_a = [&](std::uint32_t w) { return static_cast<std::uint8_t>(a.mark & b_.mark(w)); };
     const auto with_b = [&](std::uint32_t v) { return static_cast<std::uint8_t>(b.mark & a_.mark(v)); };
@@ -321,7 +297,8 @@ class Convolution {
       add(a.to, b.to, with_a(b.to));
       add(a.from, b.to, with_b(a.from));
     }
-    push_facet(normal, a.mark & b.mark);
+    using Kind = FacetList::Normal::Kind;
+    list.end_facet({reversed ? Kind::kLinesTurned : Kind::kLines, PlaneId(), a.line, b.line}, a.mark & b.mark);
   }
 
   [[nodiscard]] MarkedPolygon polygon(const SolidFeatures& of, const FacetPiece& piece) const {
@@ -340,45 +317,75 @@ class Convolution {
   }
 
   // A piece of a facet, and a piece or an edge parallel to it.
-  void add_sum(const SolidFeatures& ours, const FacetPiece& piece, const SolidFeatures& theirs, const FacetPiece& other,
-               bool swapped, const Direction& normal) {
+  void add_sum(FacetList& list, const SolidFeatures& ours, const FacetPiece& piece, const SolidFeatures& theirs,
+               const FacetPiece& other, bool swapped, PlaneId plane) {
     const MarkedPolygon p = polygon(ours, piece);
     const MarkedPolygon q = polygon(theirs, other);
-    const Integer3& n = normal.integers();
-    for (const SumCorner& c : polygon_sum(p, q, to_rational(n))) {
-      push_corner(pair(piece.ring[c.p], other.ring[c.q], swapped), c.mark, c.side);
+    add_polygon_sum(list, {piece.ring, p}, {other.ring, q}, swapped, plane);
+    if ((p.inside & q.inside) == 0 && !p.is_void() && !q.is_void())
+      add_sums_of_parts(list, {piece.ring, p}, {other.ring, q}, swapped, plane);
+  }
+
+  // A piece, a side or a corner, as vertices and as a polygon.
+  struct Part {
+    std::vector<std::uint32_t> ring;
+    MarkedPolygon polygon;
+  };
+
+  void add_polygon_sum(FacetList& list, const Part& p, const Part& q, bool swapped, PlaneId plane) {
+    for (const SumCorner& c :
+         polygon_sum(p.polygon, q.polygon, to_rational((swapped ? b_ : a_).normal(plane).integers()))) {
+      list.add_corner(corner(p.ring[c.p], q.ring[c.q], swapped), c.mark, c.side);
     }
-    push_facet(normal, p.inside & q.inside);
-    // What of the inside belongs to the sum all the same lies in sums of parts, whose borders it may end at.
-    if ((p.inside & q.inside) != 0 || p.is_void() || q.is_void()) return;
-    result_.marks_are_told = false;
+    list.end_facet(normal_of_facet(plane, swapped), p.polygon.inside & q.polygon.inside);
   }
 
-  std::uint32_t corner(const Pair& p) {
-    const auto [at, is_new] = number_.emplace(pair_key(p.a, p.b), static_cast<std::uint32_t>(result_.points.size()));
-    if (is_new) new_corner(plus(a_.points()[p.a], b_.points()[p.b]));
-    return at->second;
+  // What of the inside of a sum belongs to it although the insides of both pieces do not: sums of sides and corners
+  // with each other and with an inside. They are facets of their own, in the same plane, or sides or corners of such.
+  void add_sums_of_parts(FacetList& list, const Part& p, const Part& q, bool swapped, PlaneId plane) {
+    const auto add = [&](const Part& of_p, const Part& of_q) {
+      if (of_p.polygon.is_void() || of_q.polygon.is_void() || !have_area(of_p, of_q)) return;
+      add_polygon_sum(list, of_p, of_q, swapped, plane);
+    };
+    const std::vector<Part> sides_of_p = p.ring.size() > 2 ? sides(p) : std::vector<Part>();
+    const std::vector<Part> sides_of_q = q.ring.size() > 2 ? sides(q) : std::vector<Part>();
+    for (const Part& side : sides_of_q) add(p, side);
+    for (const Part& side : sides_of_p) {
+      add(side, q);
+      for (const Part& other : sides_of_q) add(side, other);
+    }
+    for (const Part& corner : corners(q)) add(p, corner);
+    for (const Part& corner : corners(p)) add(corner, q);
   }
 
-  std::uint32_t new_corner(const Rational3& point) {
-    result_.points.push(point);
-    result_.rounded.push_back(nearest_doubles(point));
-    return static_cast<std::uint32_t>(result_.rounded.size() - 1);
+  // False for a sum that is a segment or a point.
+  static bool have_area(const Part& p, const Part& q) {
+    if (p.ring.size() > 2 || q.ring.size() > 2) return true;
+    if (p.ring.size() < 2 || q.ring.size() < 2) return false;
+    const Rational3 along_p = minus(p.polygon.corners[1], p.polygon.corners[0]);
+    return !is_zero(cross(along_p, minus(q.polygon.corners[1], q.polygon.corners[0])));
   }
 
-  // A corner of the facet that is being made, and the side that begins there.
-  void push_corner(const Pair& p, int mark, int side) {
-    result_.corners.push_back(corner(p));
-    if (!mixed()) return;
-    result_.corner_marks.push_back(static_cast<std::uint8_t>(mark));
-    result_.side_marks.push_back(static_cast<std::uint8_t>(side));
+  static std::vector<Part> sides(const Part& of) {
+    std::vector<Part> result;
+    for (std::size_t i = 0; i < of.ring.size(); ++i) {
+      const std::size_t k = i + 1 < of.ring.size() ? i + 1 : 0;
+      const MarkedPolygon& all = of.polygon;
+      const std::uint8_t mark = all.sides[i];
+      result.push_back(
+          {{of.ring[i], of.ring[k]},
+           {{all.corners[i], all.corners[k]}, {all.corner_marks[i], all.corner_marks[k]}, {mark, mark}, mark}});
+    }
+    return result;
   }
 
-  void push_facet(const Direction& normal, int inside) {
-    const PointId first{result_.corners[result_.begin.back()]};
-    result_.plane.push_back(plane_through(result_.planes, result_.points, normal.integers(), first));
-    result_.begin.push_back(static_cast<std::uint32_t>(result_.corners.size()));
-    if (mixed()) result_.inside_marks.push_back(static_cast<std::uint8_t>(inside));
+  static std::vector<Part> corners(const Part& of) {
+    std::vector<Part> result;
+    for (std::size_t i = 0; i < of.ring.size(); ++i) {
+      const std::uint8_t mark = of.polygon.corner_marks[i];
+      result.push_back({{of.ring[i]}, {{of.polygon.corners[i]}, {mark}, {mark}, mark}});
+    }
+    return result;
   }
 
   const SolidFeatures& a_;
@@ -386,8 +393,8 @@ class Convolution {
   Monitor monitor_;
   NearOrigin near_;
   FeatureBoxes boxes_a_, boxes_b_;
-  ConvolutionFacets result_;
-  std::unordered_map<std::uint64_t, std::uint32_t> number_;
+  BoundaryMarks marks_ = BoundaryMarks::kAll;
+  std::vector<FacetList> lists_;
 };
 
 }  // namespace

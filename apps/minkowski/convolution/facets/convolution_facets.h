@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "apps/minkowski/cells/rounded_cells.h"
@@ -33,9 +32,6 @@ struct ConvolutionFacets {
   std::vector<std::uint8_t> corner_marks;
   std::vector<std::uint8_t> side_marks;
   CoveredVoxels covered;  ///< what is known of the inside of the sum; facets there are left out
-
-  /// False if marks could not be told by these facets.
-  bool marks_are_told = true;
 
   [[nodiscard]] std::uint32_t size() const { return static_cast<std::uint32_t>(plane.size()); }
   [[nodiscard]] std::span<const std::uint32_t> ring(std::uint32_t facet) const {

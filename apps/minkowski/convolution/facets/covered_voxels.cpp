@@ -17,6 +17,8 @@
 #include <tuple>
 #include <utility>
 
+#include "nef/base/threads/parallel.h"
+
 namespace nef::minkowski {
 namespace {
 
@@ -124,7 +126,8 @@ Extent extent_of(const std::vector<Double3>& points) {
 
 }  // namespace
 
-CoveredVoxels::CoveredVoxels(const SolidFeatures& a, const SolidFeatures& b, std::uint32_t cells) {
+CoveredVoxels::CoveredVoxels(const SolidFeatures& a, const SolidFeatures& b, std::uint32_t cells,
+                             const Monitor& monitor) {
   double longest = 0;
   double magnitude = 0;
   for (const SolidFeatures* solid : {&a, &b}) {
@@ -135,8 +138,10 @@ CoveredVoxels::CoveredVoxels(const SolidFeatures& a, const SolidFeatures& b, std
   for (; cells >= kFewest; cells /= 2) {
     size_ = longest / cells;
     if (!(magnitude * 0x1p-44 < size_ / 16) || !(size_ > 1e-280) || !(longest < 1e280)) break;
-    const Raster of_a = raster_of(a);
-    const Raster of_b = raster_of(b);
+    Raster of_a;
+    Raster of_b;
+    parallel_calls(monitor, {[&](const Monitor& own) { of_a = raster_of(a, own); },
+                             [&](const Monitor& own) { of_b = raster_of(b, own); }});
     std::optional<BitGrid> sum = BitGrid::sum(of_a.inside, of_b.inside);
     if (!sum) continue;
     for (std::size_t i = 0; i < 3; ++i) low_[i] = of_a.low[i] + of_b.low[i];
@@ -146,7 +151,28 @@ CoveredVoxels::CoveredVoxels(const SolidFeatures& a, const SolidFeatures& b, std
   size_ = 0;
 }
 
-CoveredVoxels::Raster CoveredVoxels::raster_of(const SolidFeatures& solid) const {
+// What some pieces come near, and where the middles of rows pass them.
+struct CoveredVoxels::Drawing {
+  struct Passed {
+    std::size_t row = 0;
+    double at = 0;
+  };
+  BitGrid border;
+  std::vector<Passed> passed;
+};
+
+void CoveredVoxels::draw(const std::vector<Double3>& polygon, Drawing& drawing) {
+  const std::uint32_t height = drawing.border.size()[1];
+  for_each_row(polygon, [&](const Range& of_x, std::uint32_t y, std::uint32_t z) {
+    for (std::uint32_t x = of_x.first(); x <= of_x.last(); ++x) drawing.border.set(x, y, z);
+    if (is_over(polygon, y + 0.5, z + 0.5)) {
+      drawing.passed.push_back({std::size_t{z} * height + y, (of_x.low + of_x.high) / 2});
+    }
+    return true;
+  });
+}
+
+CoveredVoxels::Raster CoveredVoxels::raster_of(const SolidFeatures& solid, const Monitor& monitor) const {
   std::vector<Double3> points = rounded_points(solid);
   const Extent extent = extent_of(points);
   Raster result;
@@ -156,20 +182,27 @@ CoveredVoxels::Raster CoveredVoxels::raster_of(const SolidFeatures& solid) const
     count[i] = static_cast<std::uint32_t>((extent.high[i] - extent.low[i]) / size_) + 3;
     for (Double3& p : points) p[i] = (p[i] - result.low[i]) / size_;
   }
-  BitGrid border(count[0], count[1], count[2]);
-  std::vector<std::vector<double>> passed(std::size_t{count[1]} * count[2]);  // where the middles of rows pass pieces
-  std::vector<Double3> polygon;
-  for (const SolidFacet& facet : solid.facets()) {
-    for (const FacetPiece& piece : facet.pieces) {
-      polygon.clear();
-      for (const std::uint32_t v : piece.ring) polygon.push_back(points[v]);
-      for_each_row(polygon, [&](const Range& of_x, std::uint32_t y, std::uint32_t z) {
-        for (std::uint32_t x = of_x.first(); x <= of_x.last(); ++x) border.set(x, y, z);
-        if (is_over(polygon, y + 0.5, z + 0.5))
-          passed[std::size_t{z} * count[1] + y].push_back((of_x.low + of_x.high) / 2);
-        return true;
-      });
+  // A grid for each range, of so many facets that to unite them is nothing beside drawing.
+  constexpr std::size_t kRange = 16384;
+  const std::vector<SolidFacet>& facets = solid.facets();
+  std::vector<Drawing> drawings((facets.size() + kRange - 1) / kRange);
+  parallel_for_ranges(facets.size(), kRange, monitor, [&](std::size_t from, std::size_t to, const Monitor&) {
+    Drawing& drawing = drawings[from / kRange];
+    drawing.border = BitGrid(count[0], count[1], count[2]);
+    std::vector<Double3> polygon;
+    for (std::size_t f = from; f < to; ++f) {
+      for (const FacetPiece& piece : facets[f].pieces) {
+        polygon.clear();
+        for (const std::uint32_t v : piece.ring) polygon.push_back(points[v]);
+        draw(polygon, drawing);
+      }
     }
+  });
+  BitGrid border(count[0], count[1], count[2]);
+  std::vector<std::vector<double>> passed(std::size_t{count[1]} * count[2]);
+  for (const Drawing& drawing : drawings) {
+    border.unite(drawing.border);
+    for (const auto& [row, at] : drawing.passed) passed[row].push_back(at);
   }
   result.inside = cells_inside(border, std::move(passed));
   return result;

@@ -21,8 +21,9 @@ class CoveredVoxels {
   CoveredVoxels() = default;
   /// `cells`: how many along the longest side of the larger solid, or fewer if sums would take long. Doubles suffice:
   /// whatever comes near a cube counts as on it. Without effect (nothing is covered) where coordinates leave too little
-  /// of their digits, or one solid is too small to hold a cube. O(n cells^2), and what BitGrid::sum takes.
-  CoveredVoxels(const SolidFeatures& a, const SolidFeatures& b, std::uint32_t cells);
+  /// of their digits, or one solid is too small to hold a cube. O(n cells^2), and what BitGrid::sum takes;
+  /// on the threads of `monitor`.
+  CoveredVoxels(const SolidFeatures& a, const SolidFeatures& b, std::uint32_t cells, const Monitor& monitor);
 
   /// True if a convex polygon lies in the inside of the sum; or a segment or point, as a polygon of so many corners.
   /// These are within 2^-50 relative of the truth, or within `error`. False tells nothing. O(cubes that it meets).
@@ -33,7 +34,9 @@ class CoveredVoxels {
     Double3 low{};
     BitGrid inside;
   };
-  [[nodiscard]] Raster raster_of(const SolidFeatures& solid) const;
+  struct Drawing;
+  static void draw(const std::vector<Double3>& polygon, Drawing& drawing);
+  [[nodiscard]] Raster raster_of(const SolidFeatures& solid, const Monitor& monitor) const;
 
   double size_ = 0;  // of a cube; 0 if nothing is covered
   Double3 low_{};

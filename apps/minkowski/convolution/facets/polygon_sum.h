@@ -13,8 +13,8 @@
 
 namespace nef::minkowski {
 
-/// A convex polygon, or a segment as a ring of two corners. Each item is in the set or not: the inside, corners, and
-/// sides without their ends. Side i runs from corner i to the next one.
+/// A convex polygon, a segment as a ring of two corners, or a point as a ring of one. Each item is in the set or not:
+/// the inside, corners, and sides without their ends. Side i runs from corner i to the next one.
 struct MarkedPolygon {
   std::vector<Rational3> corners;  ///< counterclockwise about a normal; some may be straight
   std::vector<std::uint8_t> corner_marks;
@@ -33,8 +33,7 @@ struct SumCorner {
 };
 
 /// The border of p + q, cut wherever its marks may change: x is in the sum iff it is the sum of two points of the sets.
-/// The inside of the sum is marked throughout if those of both are. One of the two must not be a segment, or they are
-/// segments that are not parallel. O(n m).
+/// The inside of the sum is marked throughout if those of both are. The sum must have area. O(n m).
 std::vector<SumCorner> polygon_sum(const MarkedPolygon& p, const MarkedPolygon& q, const Rational3& normal);
 
 }  // namespace nef::minkowski

@@ -4,23 +4,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "nef/base/threads/parallel.h"
 #include "nef/mesh/polygon/triangulate.h"
 
 namespace nef::minkowski {
 
-RoundedFacets::RoundedFacets(const ConvolutionFacets& facets) : facets_(facets) {
+RoundedFacets::RoundedFacets(const ConvolutionFacets& facets, const Monitor& monitor)
+    : facets_(facets), planes_(facets.size()), sides_(facets.corners.size()), boxes_(facets.size()) {
   for (const Double3& p : facets.rounded) {
     for (const double x : p) extent_ = std::max(extent_, std::fabs(x));
   }
-  for (std::uint32_t f = 0; f < facets.size(); ++f) {
-    const auto ring = facets.ring(f);
-    const auto [i, j] = far_corners(f);
-    planes_.push_back(
-        rounded_plane(facets.rounded[ring[0]], facets.rounded[ring[i]], facets.rounded[ring[j]], extent_));
-    Box& box = boxes_.emplace_back();
-    for (const std::uint32_t c : ring) box.add_rounded(facets.rounded[c]);
-    add_sides(f);
-  }
+  constexpr std::size_t kRange = 4096;
+  parallel_for_ranges(facets.size(), kRange, monitor, [&](std::size_t from, std::size_t to, const Monitor&) {
+    for (auto f = static_cast<std::uint32_t>(from); f < to; ++f) {
+      const auto ring = facets.ring(f);
+      const auto [i, j] = far_corners(f);
+      planes_[f] = rounded_plane(facets.rounded[ring[0]], facets.rounded[ring[i]], facets.rounded[ring[j]], extent_);
+      for (const std::uint32_t c : ring) boxes_[f].add_rounded(facets.rounded[c]);
+      find_sides(f);
+    }
+  });
 }
 
 // Two corners that span about the largest triangle with the first one: it may be next to straight corners.
@@ -49,16 +52,16 @@ std::array<std::size_t, 2> RoundedFacets::far_corners(std::uint32_t f) const {
 // Corners are within e = 4u extent of the truth, with room, so a side has components within 2.5 e, and x - origin, at
 // most 2 extent in each coordinate, is within 1.1 e if x is exact. Two products and a sum round by 4u of the
 // magnitudes. Nothing overflows for moderate extents, and what vanishes is far below e extent.
-void RoundedFacets::add_sides(std::uint32_t f) {
+void RoundedFacets::find_sides(std::uint32_t f) {
   const auto [axis, turn] = projection_axis(facets_.planes, facets_.plane[f]);
   const auto ring = facets_.ring(f);
   const double e = corner_error();
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Double3& from = facets_.rounded[ring[i]];
     const Double3& to = facets_.rounded[ring[i + 1 < ring.size() ? i + 1 : 0]];
-    RoundedSide& side = sides_.emplace_back();
-    side.u = (axis + 1) % 3;
-    side.v = (axis + 2) % 3;
+    RoundedSide& side = sides_[facets_.begin[f] + i];
+    side.u = static_cast<std::uint32_t>((axis + 1) % 3);
+    side.v = static_cast<std::uint32_t>((axis + 2) % 3);
     side.normal_u = -turn * (to[side.v] - from[side.v]);
     side.normal_v = turn * (to[side.u] - from[side.u]);
     side.origin_u = from[side.u];

@@ -15,7 +15,7 @@ namespace nef::minkowski {
 
 /// The line of a side of a facet, projected along a coordinate axis.
 struct RoundedSide {
-  std::size_t u = 0, v = 1;  ///< the other two axes
+  std::uint32_t u = 0, v = 1;  ///< the other two axes
   double normal_u = 0, normal_v = 0;
   double origin_u = 0, origin_v = 0;
   double slack = 0;   ///< bound of the error of value(x) for exact x
@@ -30,8 +30,8 @@ struct RoundedSide {
 /// Planes, sides and boxes of facets. The facets must outlive the object.
 class RoundedFacets {
  public:
-  /// O(corners).
-  explicit RoundedFacets(const ConvolutionFacets& facets);
+  /// O(corners), on the threads of `monitor`.
+  RoundedFacets(const ConvolutionFacets& facets, const Monitor& monitor);
 
   [[nodiscard]] const RoundedFace& plane(std::uint32_t facet) const { return planes_[facet]; }
   /// Side i of a facet runs from corner i of its ring to the next one.
@@ -49,7 +49,7 @@ class RoundedFacets {
 
  private:
   [[nodiscard]] std::array<std::size_t, 2> far_corners(std::uint32_t facet) const;
-  void add_sides(std::uint32_t facet);
+  void find_sides(std::uint32_t facet);
 
   const ConvolutionFacets& facets_;
   std::vector<RoundedFace> planes_;

@@ -8,9 +8,9 @@
 #include <unordered_map>
 #include <vector>
 
+#include "apps/minkowski/convolution/facets/feature_directions.h"
 #include "nef/complex/complex.h"
 #include "nef/forward.h"
-#include "nef/sphere_map/sphere_geometry.h"
 
 namespace nef::minkowski {
 
@@ -23,7 +23,7 @@ struct FacetPiece {
 
 /// A facet of a solid. One of a sheet is two such facets.
 struct SolidFacet {
-  Direction normal;  ///< outward
+  PlaneId plane;  ///< positive outside
   std::vector<FacetPiece> pieces;
   /// Vertices around a facet of several pieces, which has them on its left as seen from outside; the outer ring first.
   /// None if there is just one piece, or an edge ends inside of the facet.
@@ -35,13 +35,10 @@ struct SolidFacet {
 /// border of a sheet. At an edge of a curve it is all of the circle.
 struct ConvexEdge {
   std::uint32_t from = 0, to = 0;
-  Direction line;  ///< from `from` to `to`
-  Direction first, last;
+  std::uint32_t line = 0;  ///< from `from` to `to`: its number in SolidFeatures::lines()
+  PlaneId first, last;     ///< positive outside
   std::uint8_t mark = 1;
   bool is_bare = false;  ///< no facets; first and last mean nothing
-
-  /// True if a direction that is normal to the edge lies in the inside of the arc.
-  [[nodiscard]] bool touches(const Direction& normal, const Monitor& monitor) const;
 };
 
 /// Which points of a boundary belong to the set.
@@ -58,32 +55,55 @@ class SolidFeatures {
   [[nodiscard]] std::uint8_t mark(std::uint32_t vertex) const { return c_.mark(VertexId{vertex}) != 0 ? 1 : 0; }
   /// True if the solid fills one wedge around every edge.
   [[nodiscard]] bool has_simple_edges() const { return has_simple_edges_; }
+  /// About how many convex cells the set consists of: solids, one more for each edge that has no more than a half-turn
+  /// free, and what is no solid.
+  [[nodiscard]] std::size_t cells() const { return cells_; }
   /// True if no facet has a single point inside that is marked unlike it.
   [[nodiscard]] bool has_plain_facets() const { return has_plain_facets_; }
 
   [[nodiscard]] const std::vector<SolidFacet>& facets() const { return facets_; }
   [[nodiscard]] const std::vector<ConvexEdge>& edges() const { return edges_; }
+  /// The lines of all edges of the set.
+  [[nodiscard]] const EdgeLines& lines() const { return lines_; }
+  [[nodiscard]] PlaneNormal normal(PlaneId plane) const { return {c_.planes, plane}; }
   [[nodiscard]] const std::vector<Rational3>& points() const { return points_; }
 
   /// True if the set near the vertex lies below it in the direction: strictly, but for the vertex itself. O(degree).
-  [[nodiscard]] bool is_peak(std::uint32_t vertex, const Direction& up, const Monitor& monitor) const;
+  [[nodiscard]] bool is_peak(std::uint32_t vertex, const PlaneNormal& up, const Monitor& monitor) const;
+
+  /// True if a normal that is square to an edge lies in the inside of the edge's arc.
+  [[nodiscard]] bool touches(const ConvexEdge& edge, const PlaneNormal& normal, const Monitor& monitor) const;
 
  private:
+  /// What comes of some edges.
+  struct Edges {
+    std::vector<ConvexEdge> convex;
+    std::size_t cells = 0;
+    bool are_simple = true;
+  };
+
   void find_marks();
-  void add_facets(const Monitor& monitor);
-  void add_facet(const Facet& facet, bool solid_above, const std::vector<std::vector<std::uint32_t>>& pieces,
-                 const std::vector<std::vector<std::uint32_t>>& rings);
+  void count_cells();
+  void find_facets(const Monitor& monitor);
+  void find_edges(const Monitor& monitor);
+  [[nodiscard]] SolidFacet facet_of(const Facet& facet, bool solid_above,
+                                    const std::vector<std::vector<std::uint32_t>>& pieces,
+                                    const std::vector<std::vector<std::uint32_t>>& rings) const;
   void mark_sides(FacetPiece& piece) const;
-  void add_edge(VertexId vertex, std::uint32_t svertex, const Monitor& monitor);
-  void know_integers() const;
+  void add_edge(VertexId vertex, std::uint32_t svertex, Edges& edges, const Monitor& monitor) const;
+  /// What is above a vertex all of whose edges go down.
+  enum class Top : std::uint8_t { kUnknown, kFree, kTaken, kDepends };
+  [[nodiscard]] bool has_long_arcs(const SphereMapView& map, const Monitor& monitor) const;
 
   const Complex& c_;
   std::vector<Rational3> points_;
   std::vector<SolidFacet> facets_;
   std::vector<ConvexEdge> edges_;
-  IndexedVector<HalfedgeId, Direction> directions_;             // away from their vertices
+  EdgeLines lines_;
   std::unordered_map<std::uint64_t, std::uint8_t> edge_marks_;  // by the key of the ends, if marks are mixed
+  mutable std::vector<std::uint8_t> top_;                       // per vertex, a Top; several threads may find it
   BoundaryMarks marks_ = BoundaryMarks::kAll;
+  std::size_t cells_ = 0;
   bool has_simple_edges_ = true;
   bool has_plain_facets_ = true;
 };

@@ -129,7 +129,7 @@ void BoundaryMarker::mark(PointId point, bool is_saddle_point, SphereMapBuffer& 
   const auto inside = [&](std::uint32_t sface) { return view.sfaces[sface].mark != 0; };
   const auto told = [](LabelId mark) { return static_cast<LabelId>((mark & kInSum) != 0 ? 1 : 0); };
   const auto ask_towards = [&](const Direction& direction, LabelId& mark, LabelId& twin) {
-    ask(pyramids_.point_towards(point, direction), mark, twin);
+    ask(pyramids_.point_towards(facets_.points, point, direction, monitor_), mark, twin);
   };
   for (std::uint32_t e = 0; e < view.shalfedges.size(); e += 2) {
     const SHalfedge& half = view.shalfedges[e];

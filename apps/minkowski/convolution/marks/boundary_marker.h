@@ -31,7 +31,7 @@ namespace nef::minkowski {
 class BoundaryMarker {
  public:
   /// Pyramids and facets must outlive the object.
-  BoundaryMarker(FacetPyramids& pyramids, const ConvolutionFacets& facets, const Monitor& monitor)
+  BoundaryMarker(const FacetPyramids& pyramids, const ConvolutionFacets& facets, const Monitor& monitor)
       : pyramids_(pyramids), facets_(facets), monitor_(monitor) {}
 
   /// False if no item around a point can be a passage, going by the drawing around it alone.
@@ -57,7 +57,7 @@ class BoundaryMarker {
   };
   void ask(const Rational3& point, LabelId& mark, LabelId& twin) { questions_.push_back({point, &mark, &twin}); }
 
-  FacetPyramids& pyramids_;
+  const FacetPyramids& pyramids_;
   const ConvolutionFacets& facets_;
   Monitor monitor_;
   std::vector<Question> questions_;

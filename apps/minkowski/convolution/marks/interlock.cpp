@@ -5,12 +5,14 @@
 // sum lies in a cube that is surely inside. Both solids overlap if a direction into one, turned about the vertex, leads
 // into the other one, or if arcs of their boundaries cross. They can be moved apart if the convex hull of one, turned,
 // does not enter the other one. What passes all tests becomes a candidate, unless the definition says that the point is
-// inside the sum.
+// inside the sum: mostly by an edge and a facet that crossed for the pair before.
 #include "apps/minkowski/convolution/marks/interlock.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
+#include "apps/minkowski/convolution/facets/near_vector.h"
 #include "apps/minkowski/convolution/marks/direction_into.h"
 #include "nef/base/fast_path.h"
 #include "nef/base/monitor.h"
@@ -39,7 +41,7 @@ struct Arc {
 
 // An arc in doubles, and on which side of its circle a certain direction is.
 struct NearArc {
-  Approximation3 normal, from, to;
+  NearVector normal, from, to;
   int side = 0;  // 0 if that is not sure
 };
 
@@ -52,7 +54,7 @@ struct Saddle {
   std::vector<Direction> into, back;  // the second ones are opposite to the first
   std::vector<Arc> arcs;
   std::vector<NearArc> near_arcs;  // all of them, or none
-  Approximation3 near_into;        // a direction into the solid; their sides are its
+  NearVector near_into;            // a direction into the solid; their sides are its
   /// Of the convex hull of the solid there, unless that is all of space, turned about the vertex: normals, positive
   /// inside, of planes the extreme ones of which bound it; and a direction inside of it.
   std::vector<Direction> turned_hull;
@@ -129,22 +131,17 @@ void find_hull(const Complex& c, const SphereMapView& map, const Directions& edg
   saddle.turned_hull = std::move(normals);
 }
 
-Approximation3 near(const Direction& d) {
-  return {Approximation{d.approximate[0], d.error}, Approximation{d.approximate[1], d.error},
-          Approximation{d.approximate[2], d.error}};
-}
-
 // What surely_in asks; no arcs if one is not short.
 void find_near_arcs(Saddle& saddle) {
-  saddle.near_into = near(saddle.into.front());
+  saddle.near_into = near_vector(saddle.into.front());
   for (const Arc& arc : saddle.arcs) {
     if (arc.turn <= 0) {
       saddle.near_arcs.clear();
       return;
     }
-    const Approximation3 normal = near(arc.normal);
-    const int side = dot(normal, saddle.near_into).sign().value_or(0);
-    saddle.near_arcs.push_back({normal, near(arc.from), near(arc.to), side});
+    const NearVector normal = near_vector(arc.normal);
+    saddle.near_arcs.push_back(
+        {normal, near_vector(arc.from), near_vector(arc.to), sure_sign_of_dot(normal, saddle.near_into)});
   }
 }
 
@@ -174,6 +171,29 @@ std::vector<Saddle> saddles(const Complex& c, const Monitor& monitor) {
     find_near_arcs(saddle);
     find_hull(c, map, edges, saddle, monitor);
     result.push_back(std::move(saddle));
+  }
+  return result;
+}
+
+// Whether a direction is in the inside of the solid around a saddle (1) or in that of the rest (-1), if doubles tell;
+// else 0. Each arc has the solid on its left and none of it on its right, so the arcs between the direction and one
+// into the solid count. Two short arcs cross iff the ends of each are on both sides of the other's circle and they
+// cross there on the same half of the sphere: going from d to r one comes to the side sign(n . r) of the other arc's
+// circle at sign(n . r) (n x m), and going from `from` to `to` to the side sign(m . to) at sign(m . to) (m x n), m = d
+// x r.
+int surely_in(const Saddle& saddle, const Direction& direction) {
+  if (!kFastPaths || saddle.near_arcs.empty()) return 0;
+  const NearVector d = near_vector(direction);
+  const NearVector m = near_cross(d, saddle.near_into);
+  int result = 1;
+  for (const NearArc& arc : saddle.near_arcs) {
+    const int of_d = sure_sign_of_dot(arc.normal, d);
+    if (of_d == 0 || arc.side == 0) return 0;
+    if (of_d == arc.side) continue;
+    const int of_from = sure_sign_of_dot(m, arc.from);
+    const int of_to = sure_sign_of_dot(m, arc.to);
+    if (of_from == 0 || of_to == 0) return 0;
+    if (of_from != of_to && of_to == -arc.side) result = -result;
   }
   return result;
 }
@@ -219,6 +239,7 @@ bool fits(const Complex& c, const Saddle& saddle, const Saddle& other, const Mon
       return false;
     }
   }
+  if (const int where = surely_in(saddle, other.turned_middle); where != 0) return where < 0;
   const SphereMapView map = c.sphere_map(saddle.vertex);
   const SphereLocation at = locate(c.planes, map, other.turned_middle, monitor);
   return at.kind == SphereLocation::Kind::kSFace && map.sfaces[at.index].mark == 0;
@@ -227,11 +248,11 @@ bool fits(const Complex& c, const Saddle& saddle, const Saddle& other, const Mon
 // Whether a short arc crosses another one, turned about the vertex (1) or does not even touch it (-1), if doubles tell;
 // else 0. As in surely_in; the normal of an arc stays as it is when the arc is turned.
 int surely_cross(const NearArc& a, const NearArc& b) {
-  const int b_from = -dot(a.normal, b.from).sign().value_or(0);
-  const int b_to = -dot(a.normal, b.to).sign().value_or(0);
+  const int b_from = -sure_sign_of_dot(a.normal, b.from);
+  const int b_to = -sure_sign_of_dot(a.normal, b.to);
   if (b_from != 0 && b_from == b_to) return -1;
-  const int a_from = dot(b.normal, a.from).sign().value_or(0);
-  const int a_to = dot(b.normal, a.to).sign().value_or(0);
+  const int a_from = sure_sign_of_dot(b.normal, a.from);
+  const int a_to = sure_sign_of_dot(b.normal, a.to);
   if (a_from != 0 && a_from == a_to) return -1;
   if (b_from == 0 || b_to == 0 || a_from == 0 || a_to == 0) return 0;
   return a_to == -b_to ? 1 : -1;
@@ -258,34 +279,14 @@ bool arcs_cross(const Saddle& s, const Saddle& t, const Monitor& monitor) {
   return false;
 }
 
-// Whether a direction is in the inside of the solid around a saddle (1) or in that of the rest (-1), if doubles tell;
-// else 0. Each arc has the solid on its left and none of it on its right, so the arcs between the direction and one
-// into the solid count. Two short arcs cross iff the ends of each are on both sides of the other's circle and they
-// cross there on the same half of the sphere: going from d to r one comes to the side sign(n . r) of the other arc's
-// circle at sign(n . r) (n x m), and going from `from` to `to` to the side sign(m . to) at sign(m . to) (m x n), m = d
-// x r.
-int surely_in(const Saddle& saddle, const Approximation3& d) {
-  if (saddle.near_arcs.empty()) return 0;
-  const Approximation3& r = saddle.near_into;
-  const Approximation3 m = cross(d, r);
-  int result = 1;
-  for (const NearArc& arc : saddle.near_arcs) {
-    const int of_d = dot(arc.normal, d).sign().value_or(0);
-    if (of_d == 0 || arc.side == 0) return 0;
-    if (of_d == arc.side) continue;
-    const int of_from = dot(m, arc.from).sign().value_or(0);
-    const int of_to = dot(m, arc.to).sign().value_or(0);
-    if (of_from == 0 || of_to == 0) return 0;
-    if (of_from != of_to && of_to == -arc.side) result = -result;
-  }
-  return result;
-}
+// What the nearest double of a number tells.
+Approximation rounded(double x) { return {x, std::fabs(x) * kRoundingUnit + 1e-300}; }
 
 bool holds_one(const Complex& c, const Saddle& saddle, const std::vector<Direction>& directions,
                const Monitor& monitor) {
   std::vector<const Direction*> unsure;
   for (const Direction& d : directions) {
-    const int where = kFastPaths ? surely_in(saddle, near(d)) : 0;
+    const int where = surely_in(saddle, d);
     if (where > 0) return true;
     if (where == 0) unsure.push_back(&d);
   }
@@ -306,6 +307,7 @@ std::vector<SaddlePoint> saddle_points(const Saddles& a, const Saddles& b, const
   const Complex& of_a = a.solid().complex();
   const Complex& of_b = b.solid().complex();
   std::vector<SaddlePoint> result;
+  IntersectionQuery::Crossings recent;
   for (const Saddle& s : a.all()) {
     monitor.check_interruption();
     for (const Saddle& t : b.all()) {
@@ -314,12 +316,13 @@ std::vector<SaddlePoint> saddle_points(const Saddles& a, const Saddles& b, const
       if (covered.cover({&about, 1})) continue;
       if (holds_one(of_a, s, t.back, monitor) || holds_one(of_b, t, s.back, monitor)) continue;
       if (arcs_cross(s, t, monitor) || fits(of_a, s, t, monitor) || fits(of_b, t, s, monitor)) continue;
+      Approximation3 around;
+      for (std::size_t i = 0; i < 3; ++i) around[i] = rounded(s.near[i]) + rounded(t.near[i]);
+      if (membership.surely_in_inside(around, recent, true, monitor)) continue;
       const Rational3 p = of_a.points.rational(point_of(s.vertex));
       const Rational3 q = of_b.points.rational(point_of(t.vertex));
-      const Rational3 x = {p[0] + q[0], p[1] + q[1], p[2] + q[2]};
-      if (membership.surely_in_inside(x, monitor)) continue;
       const bool marked = of_a.mark(s.vertex) != 0 && of_b.mark(t.vertex) != 0;
-      result.push_back({x, static_cast<std::uint8_t>(marked ? 1 : 0)});
+      result.push_back({plus(p, q), static_cast<std::uint8_t>(marked ? 1 : 0)});
     }
   }
   return result;

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/minkowski/convolution/marks/sum_membership.h"
 
-#include "apps/minkowski/minkowski.h"
+#include <tuple>
 
 namespace nef::minkowski {
-SumMembership::SumMembership(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor)
-    : a_(a), b_(b), turned_b_(negate(b, monitor)) {}
+namespace {
+
+Polyhedron closed(const Polyhedron& set, const Monitor& monitor) {
+  return set.is_closed() ? set : closure(set, monitor);
+}
+
+}  // namespace
 
 bool SumMembership::in_sum(const Rational3& x, const Monitor& monitor) const {
   std::call_once(sets_once_, [&] { sets_.emplace(a_, turned_b_); });
@@ -13,9 +18,11 @@ bool SumMembership::in_sum(const Rational3& x, const Monitor& monitor) const {
 }
 
 const IntersectionQuery& SumMembership::closures(const Monitor& monitor) const {
-  std::call_once(closures_once_, [&] { closures_.emplace(closure(a_, monitor), closure(turned_b_, monitor)); });
+  std::call_once(closures_once_, [&] { closures_.emplace(closed(a_, monitor), closed(turned_b_, monitor)); });
   return *closures_;
 }
+
+void SumMembership::prepare(const Monitor& monitor) const { std::ignore = closures(monitor); }
 
 bool SumMembership::in_closure(const Rational3& x, const Monitor& monitor) const {
   return closures(monitor).meet(x, monitor);

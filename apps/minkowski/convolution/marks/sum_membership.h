@@ -14,8 +14,13 @@ namespace nef::minkowski {
 /// all points. May be asked from several threads at once.
 class SumMembership {
  public:
-  /// Two sets that lie in the closures of their interiors. Both must outlive the object.
-  SumMembership(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor);
+  /// A, and the points -x of all x in B, for two sets that lie in the closures of their interiors. Keeps copies, which
+  /// are O(1).
+  SumMembership(const Polyhedron& a, const Polyhedron& turned_b) : a_(a), turned_b_(turned_b) {}
+
+  /// Makes the query that most questions take, which the first of them does otherwise while other threads wait. O(n log
+  /// n).
+  void prepare(const Monitor& monitor) const;
 
   /// True for a point of the closure of the sum.
   [[nodiscard]] bool in_closure(const Rational3& x, const Monitor& monitor) const;
@@ -33,9 +38,7 @@ class SumMembership {
  private:
   [[nodiscard]] const IntersectionQuery& closures(const Monitor& monitor) const;
 
-  const Polyhedron& a_;
-  const Polyhedron& b_;
-  Polyhedron turned_b_;
+  Polyhedron a_, turned_b_;
   // Made when they are needed.
   mutable std::once_flag sets_once_, closures_once_, insides_once_;
   mutable std::optional<IntersectionQuery> sets_, closures_, insides_;

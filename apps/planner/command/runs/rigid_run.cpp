@@ -9,6 +9,7 @@
 #include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid_search/pose_metric.h"
 #include "apps/planner/rigid_search/rigid_planning.h"
+#include "apps/program/reports/exact_json.h"
 #include "nef/base/counted.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/base/timing/time_limit.h"
@@ -33,6 +34,10 @@ json rigid_json(const RigidAnswer& answer, const Scene& scene) {
   result["samples"] = answer.samples;
   result["slices"] = answer.slices;
   result["boxes"] = answer.boxes;
+  if (!answer.in_question.boxes.empty()) {
+    result["in_question"] = {{"reference", exact_json(answer.in_question.reference)},
+                             {"boxes", answer.in_question.boxes}};
+  }
   if (answer.collision) result["collision"] = collision_json(*answer.collision, scene);
   return result;
 }
@@ -73,6 +78,11 @@ void print(const Arguments& a, const RigidAnswer& answer, const Scene& scene) {
       }
       std::cout << ": no path found with " << counted(answer.samples, "sample", "samples") << " and "
                 << counted(answer.slices, "slice", "slices") << ", which proves nothing\n";
+      if (!answer.in_question.boxes.empty()) {
+        std::cout << "in question: "
+                  << counted(answer.in_question.boxes.size(), "box of positions", "boxes of positions")
+                  << " in the way, which may not be blocked at all orientations\n";
+      }
       break;
     default:
       std::cout << ": " << (answer.collision ? describe(*answer.collision, scene) : "it touches a surface") << '\n';
@@ -100,19 +110,19 @@ void write_proof(const Arguments& a, const Scene& scene, const MotionChecker& ch
 
 }  // namespace
 
-int run_rigid(const Arguments& a, const Scene& scene) {
+int run_rigid(const Arguments& a, const Scene& scene, const TimeLimit& limit) {
   exclude(a, "a robot that turns freely",
           {"--tight", "--queries", "--benchmark", "--min-dimension", "--clearance", "--raw", "--quick", "--prefer",
            "--digits", "--speed", "--se3"});
   require_extensions(a, "for a robot that turns freely", {"json", "txt", "path", "glb", "html"});
-  const TimeLimit limit(a.time, a.session.monitor);
-  const auto shared = std::make_shared<const MotionChecker>(MotionChecker::of_scene(scene, a.session.monitor));
+  const Stopwatch watch;
+  const auto shared = std::make_shared<const MotionChecker>(MotionChecker::of_scene(scene, limit.monitor()));
   const MotionChecker& checker = *shared;
-  const double setup_s = limit.passed();
+  const double setup_s = watch.seconds();
   const RigidAnswer answer =
       a.ompl.empty() ? find_rigid_path(scene, checker, limits_of(a), limit.monitor())
                      : run_rigid_ompl(scene, shared, a.ompl, a.time.value_or(kOmplSeconds), a.session.monitor);
-  const double op_s = limit.passed() - setup_s;
+  const double op_s = watch.seconds() - setup_s;
   write_proof(a, scene, checker, answer);
   const auto text = [&](const std::string&) -> std::optional<std::string> {
     if (answer.path.empty()) return std::nullopt;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The questions that the program `planner` answers, each in a source of its own name. A run writes and prints what was
-// asked for and returns the exit code; errors in data and options that it does not know are thrown as nef::Error.
+// asked for and returns the exit code; errors in data and options that it does not know are thrown as nef::Error. A
+// `limit` has been running since the program began to read: what it stops before there is anything to tell is thrown as
+// Interrupted.
 #pragma once
 
 #include <array>
@@ -19,6 +21,7 @@
 #include "apps/planner/turning/turning_search.h"
 #include "apps/view/layer.h"
 #include "nef/base/timing/stopwatch.h"
+#include "nef/base/timing/time_limit.h"
 
 namespace nef::planner {
 
@@ -27,7 +30,7 @@ namespace nef::planner {
 int run_command(int argc, char** argv);
 
 /// --range: the range of motion of a joint. Exit codes: 0, or 5 if a part of the range is undecided.
-int run_range(const Arguments& a);
+int run_range(const Arguments& a, const TimeLimit& limit);
 /// The keys of a report on a range: mechanism, joint, parts.
 nlohmann::json range_json(const RangeOfMotion& range, const Mechanism& mechanism);
 /// A line for each part of a range.
@@ -39,14 +42,14 @@ bool is_undecided(const RangeOfMotion& range);
 int run_verdict(const Arguments& a);
 
 /// --assembly: takes it apart. 0 a sequence, 1 inseparable, 3 parts overlap, 5 undecided.
-int run_assembly(const Arguments& a);
+int run_assembly(const Arguments& a, const TimeLimit& limit);
 
 /// --path with poses that are turned: certifies it, and shows the robot moving along it (a blocked path up to the pose
 /// that collides). 0 every motion is free, 1 one collides, 5 undecided.
-int run_certify(const Arguments& a, const Scene& scene, const std::vector<RigidPose>& poses);
+int run_certify(const Arguments& a, const Scene& scene, const std::vector<RigidPose>& poses, const TimeLimit& limit);
 
 /// --linkage: the same for a path of the joints of a robot of several links.
-int run_linkage(const Arguments& a);
+int run_linkage(const Arguments& a, const TimeLimit& limit);
 /// Parts of a motion in a report; neighbours are joined.
 nlohmann::json parts_json(const std::vector<std::array<double, 2>>& parts);
 /// What is known of a path, for people; of a blocked one only that it is. Without motions the time was over.
@@ -62,16 +65,16 @@ std::vector<view::Layer> certified_layers(const CertifiedPath& path, std::vector
 
 /// A scene whose robot turns freely: a path whose motions are certified, or a proof that there is none. 0 a path, 1
 /// there is none, 3 invalid start or goal, 5 undecided.
-int run_rigid(const Arguments& a, const Scene& scene);
+int run_rigid(const Arguments& a, const Scene& scene, const TimeLimit& limit);
 
 /// A scene whose robot only translates: paths, queries, the path of --path (`given`), OMPL's planners. `widest`, if not
 /// null, is reported, too. 0 path, 1 infeasible or blocked, 3 invalid start or goal, 4 no answer of an OMPL planner, 5
 /// undecided.
 int run_translations(const Arguments& a, const Scene& scene, const nlohmann::json& widest,
-                     const std::vector<RigidPose>& given);
+                     const std::vector<RigidPose>& given, const TimeLimit& limit);
 
 /// The same for a robot that may turn about an axis; 0, 1, 3, 4, 5 as above.
-int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& widest);
+int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& widest, const TimeLimit& limit);
 
 /// --check-proof with a .proof file: checks it against the scene and the path of --path. 0 it holds, 1 it does not.
 /// Nothing if the file is no .proof file.

@@ -28,13 +28,8 @@ namespace {
 class TranslationRun {
  public:
   TranslationRun(const Arguments& a, const Scene& scene, const nlohmann::json& widest,
-                 const std::vector<RigidPose>& given)
-      : a_(a),
-        scene_(scene),
-        widest_(widest),
-        given_(given),
-        // An OMPL planner has the time for itself.
-        limit_(a.ompl.empty() && a.benchmark.empty() ? a.time : std::nullopt, a.session.monitor) {}
+                 const std::vector<RigidPose>& given, const TimeLimit& limit)
+      : a_(a), scene_(scene), widest_(widest), given_(given), limit_(limit) {}
 
   int run() {
     try {
@@ -42,7 +37,7 @@ class TranslationRun {
     } catch (const Interrupted&) {
       Answer answer;
       answer.status = Answer::Status::kUndecided;
-      answer.phases["op"] = limit_.passed();
+      answer.phases["op"] = watch_.seconds();
       return tell_answer(answer, nullptr);
     }
   }
@@ -211,14 +206,15 @@ class TranslationRun {
   const Scene& scene_;
   const nlohmann::json& widest_;
   const std::vector<RigidPose>& given_;
-  TimeLimit limit_;
+  const TimeLimit& limit_;
+  Stopwatch watch_;
 };
 
 }  // namespace
 
 int run_translations(const Arguments& a, const Scene& scene, const nlohmann::json& widest,
-                     const std::vector<RigidPose>& given) {
-  return TranslationRun(a, scene, widest, given).run();
+                     const std::vector<RigidPose>& given, const TimeLimit& limit) {
+  return TranslationRun(a, scene, widest, given, limit).run();
 }
 
 }  // namespace nef::planner

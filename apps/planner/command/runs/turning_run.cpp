@@ -187,7 +187,7 @@ std::vector<view::Layer> turning_layers(const TurningAnswer& answer, const Scene
   return layers;
 }
 
-int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& widest) {
+int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& widest, const TimeLimit& limit) {
   exclude(a, "a scene with a rotation",
           {"--tight", "--path", "--queries", "--benchmark", "--min-dimension", "--clearance", "--raw", "--quick",
            "--prefer", "--se3"});
@@ -196,7 +196,7 @@ int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& wi
     throw InputError("--digits: OMPL's paths of a robot that turns cannot be rounded");
   }
   if (!a.check_proof.empty()) return check_proof(a, scene);
-  const TimeLimit limit(a.time, a.session.monitor);
+  const Stopwatch watch;
   TurningLimits limits;
   limits.max_cells = a.max_cells;
   limits.digits = a.path.digits;
@@ -231,7 +231,7 @@ int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& wi
       return std::vector<double>{at[0], at[1], at[2], question.axis.degrees_of(answer.path[i].turn)};
     });
   };
-  tell(a, {"turning", scene.name, report, {{"op", limit.passed(), {}}}, for_people, text, [&] {
+  tell(a, {"turning", scene.name, report, {{"op", watch.seconds(), {}}}, for_people, text, [&] {
              return turning_layers(answer, scene, question);
            }});
   const bool no_answer = !a.ompl.empty() && answer.status == TurningAnswer::Status::kUndecided;

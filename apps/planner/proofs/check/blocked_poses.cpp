@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "apps/planner/orientation/raised_form.h"
 #include "nef/base/fast_path.h"
 #include "nef/construct/convex_hull.h"
 #include "nef/geometry/integer_vector.h"
@@ -45,6 +46,7 @@ struct BlockedPoses::Question {
   QuaternionBox<Number> orientations;
   std::vector<std::array<Number, 3>> positions;
   std::vector<std::array<Number, 3>> points;
+  std::vector<std::array<Number, 3>> drift;
   Number unit;
 };
 
@@ -53,7 +55,11 @@ std::optional<std::string> BlockedPoses::complaint(const std::vector<Face<Number
                                                    const std::vector<Face<Number>>& obstacle,
                                                    const Question<Number>& question) {
   for (const Face<Number>& face : obstacle) {
-    const Number most = face.offset * question.unit;
+    Number most = face.offset * question.unit;
+    for (const std::array<Number, 3>& drift : question.drift) {
+      const Number way = product(face.normal, drift);
+      most -= way < 0 ? Number(-way) : way;
+    }
     for (const std::array<Number, 3>& point : question.points) {
       if (product(face.normal, point) > most) return "a point of both pieces is not in the obstacle";
     }
@@ -65,6 +71,10 @@ std::optional<std::string> BlockedPoses::complaint(const std::vector<Face<Number
   const QuaternionBox<Number>& box = question.orientations;
   const std::vector<ScaledMatrix<Number>> matrices = mixed_rotations(box.origin, box.directions, box.low, box.high);
   if (matrices.empty()) return "what is blocked has too many orientations";
+  if (!question.drift.empty()) {
+    if (drifts_inside(robot, matrices, seen, question)) return std::nullopt;
+    return "a point of both pieces is not inside the robot";
+  }
   for (const Face<Number>& face : robot) {
     for (const ScaledMatrix<Number>& m : matrices) {
       const std::array<Number, 3> normal{product(m.rows[0], face.normal), product(m.rows[1], face.normal),
@@ -76,6 +86,40 @@ std::optional<std::string> BlockedPoses::complaint(const std::vector<Face<Number
     }
   }
   return std::nullopt;
+}
+
+// For a face n v <= c and a point u, seen from its position, that drifts by d_k: all coefficients of
+// R(q) n (u + sum s_k d_k) - c, multiplied by the square of q, are below zero.
+template <class Number>
+bool BlockedPoses::drifts_inside(const std::vector<Face<Number>>& robot,
+                                 const std::vector<ScaledMatrix<Number>>& matrices,
+                                 const std::vector<std::array<Number, 3>>& seen, const Question<Number>& question) {
+  constexpr std::size_t kNone = 3;
+  for (const Face<Number>& face : robot) {
+    std::vector<std::array<Number, 3>> normals;
+    for (const ScaledMatrix<Number>& m : matrices) {
+      normals.push_back(
+          {product(m.rows[0], face.normal), product(m.rows[1], face.normal), product(m.rows[2], face.normal)});
+    }
+    CubicForm<Number> drifting{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      QuadraticForm<Number> form{};
+      for (std::size_t i = 0; i < form.size(); ++i) form[i] = product(normals[i], question.drift[k]);
+      const CubicForm<Number> along = raised(form, k);
+      for (std::size_t i = 0; i < along.size(); ++i) drifting[i] += along[i];
+    }
+    for (const std::array<Number, 3>& point : seen) {
+      QuadraticForm<Number> form{};
+      for (std::size_t i = 0; i < form.size(); ++i) {
+        form[i] = product(normals[i], point) - face.offset * matrices[i].scale * question.unit;
+      }
+      const CubicForm<Number> still = raised(form, kNone);
+      for (std::size_t i = 0; i < still.size(); ++i) {
+        if (still[i] + drifting[i] >= 0) return false;
+      }
+    }
+  }
+  return true;
 }
 
 BlockedPoses::Faces BlockedPoses::faces_of(const std::vector<Rational3>& vertices, const Rational3& seen_from) {
@@ -105,19 +149,24 @@ BlockedPoses::BlockedPoses(const PathProof::Claim& claim, const Orientations& or
 
 std::optional<std::string> BlockedPoses::complaint(const OrientationBox<Rational>& box,
                                                    std::span<const Rational3> positions, std::uint32_t robot,
-                                                   std::uint32_t obstacle, std::span<const Rational3> common) const {
+                                                   std::uint32_t obstacle, std::span<const Rational3> common,
+                                                   std::span<const Rational3> drift) const {
   if (robot >= robot_.size() || obstacle >= obstacles_.size())
     return "what is blocked names a piece that does not exist";
   const Faces& piece = robot_[robot];
   const Faces& other = obstacles_[obstacle];
   if (piece.exact.empty() || other.exact.empty()) return "a flat piece blocks nothing";
   if (common.size() != positions.size()) return "what is blocked has a point of both pieces for each corner";
-  Question<Integer> question{in_integers(orientations_, box), {}, {}, 1};
-  for (const std::span<const Rational3> points : {positions, common}) {
+  if (!drift.empty() && (drift.size() != 3 || orientations_.dimension() != 3)) {
+    return "points of both pieces drift with each of three parameters, or not at all";
+  }
+  Question<Integer> question{in_integers(orientations_, box), {}, {}, {}, 1};
+  for (const std::span<const Rational3> points : {positions, common, drift}) {
     for (const Rational3& point : points) question.unit = lcm(question.unit, common_denominator(point));
   }
   for (const Rational3& position : positions) question.positions.push_back(times(position, question.unit));
   for (const Rational3& point : common) question.points.push_back(times(point, question.unit));
+  for (const Rational3& way : drift) question.drift.push_back(times(way, question.unit));
   if (kFastPaths) {
     const auto words = in_words(question, std::max(piece.bits, other.bits));
     if (words) return complaint(piece.words, other.words, *words);
@@ -145,16 +194,19 @@ std::optional<BlockedPoses::Question<Int128>> BlockedPoses::in_words(const Quest
   take_bits(std::array{question.unit}, point_bits);
   for (const Integer3& v : question.positions) take_bits(v, point_bits);
   for (const Integer3& v : question.points) take_bits(v, point_bits);
-  constexpr std::size_t kMostBits = 126;
+  for (const Integer3& v : question.drift) take_bits(v, point_bits);
+  // Coefficients of products with the parameters are sums of up to 27 times these, and four of them are added.
+  const std::size_t kMostBits = question.drift.empty() ? 126 : 118;
   if (std::max({quaternion_bits, point_bits, face_bits}) > kWordBits) return std::nullopt;
   if ((2 * quaternion_bits + 4) + (face_bits + 2) + (point_bits + 3) > kMostBits) return std::nullopt;
   Question<Int128> result{
-      {words_of(box.origin), {}, words_of(box.low), words_of(box.high)}, {}, {}, Int128{question.unit.get_si()}};
+      {words_of(box.origin), {}, words_of(box.low), words_of(box.high)}, {}, {}, {}, Int128{question.unit.get_si()}};
   for (const std::array<Integer, 4>& direction : box.directions) {
     result.orientations.directions.push_back(words_of(direction));
   }
   for (const Integer3& v : question.positions) result.positions.push_back(words_of(v));
   for (const Integer3& v : question.points) result.points.push_back(words_of(v));
+  for (const Integer3& v : question.drift) result.drift.push_back(words_of(v));
   return result;
 }
 

@@ -27,10 +27,14 @@ class BlockedPoses {
   /// What is wrong with the proof that a piece of the robot overlaps an obstacle's at all orientations of a box, and at
   /// all positions in the hull of some; nothing if it holds. `common` has for each of these positions a point of the
   /// obstacle, which must be inside the inner piece (mixed_rotations) there: obstacle and inner piece are convex, so
-  /// all positions between them have such a point, and the inner piece is in the turned robot.
+  /// all positions between them have such a point, and the inner piece is in the turned robot. If there is a `drift`
+  /// for each parameter of the box, these points drift by so much while the parameter goes from the middle to its upper
+  /// end: they must be in the obstacle, and inside the robot, all the way. For one of the robot's faces this is the
+  /// sign of a polynomial in the parameters, whose Bernstein coefficients are looked at (raised_form.h).
   [[nodiscard]] std::optional<std::string> complaint(const OrientationBox<Rational>& box,
                                                      std::span<const Rational3> positions, std::uint32_t robot,
-                                                     std::uint32_t obstacle, std::span<const Rational3> common) const;
+                                                     std::uint32_t obstacle, std::span<const Rational3> common,
+                                                     std::span<const Rational3> drift = {}) const;
 
  private:
   // normal * x <= offset, in integers: their products need no common divisors.
@@ -51,6 +55,9 @@ class BlockedPoses {
   static std::optional<std::string> complaint(const std::vector<Face<Number>>& robot,
                                               const std::vector<Face<Number>>& obstacle,
                                               const Question<Number>& question);
+  template <class Number>
+  static bool drifts_inside(const std::vector<Face<Number>>& robot, const std::vector<ScaledMatrix<Number>>& matrices,
+                            const std::vector<std::array<Number, 3>>& seen, const Question<Number>& question);
   // The question in words, if that cannot overflow.
   static std::optional<Question<Int128>> in_words(const Question<Integer>& question, std::size_t face_bits);
 

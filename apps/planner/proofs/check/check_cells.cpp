@@ -11,6 +11,7 @@
 #include "apps/planner/orientation/orientation_cells.h"
 #include "apps/planner/proofs/check/blocked_poses.h"
 #include "apps/planner/proofs/check/check_parts.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/geometry/integer_vector.h"
 #include "nef/geometry/vectors.h"
 
@@ -76,19 +77,8 @@ class CellsCheck {
     if (claim_.path.size() != 2) return "the path must be two poses, start and goal";
     if (cells_.charts.size() != orientations_.charts().size()) return "there must be a box for each chart";
     if (CellsComplaint complaint = check_bounds()) return complaint;
-    roots_.reserve(cells_.charts.size());
-    for (std::uint32_t chart = 0; chart < cells_.charts.size(); ++chart) {
-      BoxNode& root = roots_.emplace_back();
-      root.box.chart = chart;
-      for (std::size_t k = 0; k < 3; ++k) {
-        root.box.low[k] = cells_.bounds[0][k];
-        root.box.high[k] = cells_.bounds[1][k];
-        root.box.low[3 + k] = -1;
-        root.box.high[3 + k] = 1;
-      }
-      root.cell = &cells_.charts[chart];
-      if (CellsComplaint complaint = build(root)) return complaint;
-    }
+    if (CellsComplaint complaint = build_charts()) return complaint;
+    if (CellsComplaint complaint = check_leaves()) return complaint;
     if (!are_sides_apart()) return "a box on the side of the start has a facet in common with one on that of the goal";
     if (!is_on_side(claim_.path.front(), Kind::kStart)) return "the start is in no box on its side";
     if (!is_on_side(claim_.path.back(), Kind::kGoal)) return "the goal is in no box on its side";
@@ -96,6 +86,8 @@ class CellsCheck {
   }
 
  private:
+  using Leaves = std::vector<const BoxNode*>;
+
   [[nodiscard]] CellsComplaint check_bounds() const {
     const Rational away = dot(cells_.reference, cells_.reference);
     for (std::size_t k = 0; k < 3; ++k) {
@@ -109,13 +101,37 @@ class CellsCheck {
     return std::nullopt;
   }
 
-  CellsComplaint build(BoxNode& node) {
-    monitor_.check_interruption();
+  // The trees of all charts, at once. The first complaint.
+  CellsComplaint build_charts() {
+    const std::size_t count = cells_.charts.size();
+    roots_.resize(count);
+    std::vector<CellsComplaint> complaints(count);
+    std::vector<Leaves> leaves(count);
+    parallel_for(count, monitor_, [&](std::size_t chart, const Monitor& own) {
+      BoxNode& root = roots_[chart];
+      root.box.chart = static_cast<std::uint32_t>(chart);
+      for (std::size_t k = 0; k < 3; ++k) {
+        root.box.low[k] = cells_.bounds[0][k];
+        root.box.high[k] = cells_.bounds[1][k];
+        root.box.low[3 + k] = -1;
+        root.box.high[3 + k] = 1;
+      }
+      root.cell = &cells_.charts[chart];
+      complaints[chart] = build(root, leaves[chart], own);
+    });
+    for (const Leaves& some : leaves) leaves_.insert(leaves_.end(), some.begin(), some.end());
+    return first_of(complaints);
+  }
+
+  CellsComplaint build(BoxNode& node, Leaves& leaves, const Monitor& monitor) const {
+    monitor.check_interruption();
     const PathProof::PoseCell& cell = *node.cell;
     node.at_start = cell.kind == Kind::kStart;
     node.at_goal = cell.kind == Kind::kGoal;
-    if (cell.kind == Kind::kBlocked) return complaint_about_blocked(node.box, cell);
-    if (cell.kind == Kind::kBeyond) return complaint_about_beyond(node.box, cell);
+    if (cell.kind == Kind::kBlocked || cell.kind == Kind::kBeyond) {
+      leaves.push_back(&node);
+      return std::nullopt;
+    }
     if (cell.kind != Kind::kCut) {
       const bool other_side = cells_.outside_at_start ? node.at_goal : node.at_start;
       if (!claim_.box && other_side && is_at_bounds(node.box))
@@ -132,11 +148,34 @@ class CellsCheck {
       half.box = node.box;
       (upper ? half.box.low : half.box.high)[cell.axis] = cell.at;
       half.cell = &cell.halves[upper ? 1 : 0];
-      if (CellsComplaint complaint = build(half)) return complaint;
+      if (CellsComplaint complaint = build(half, leaves, monitor)) return complaint;
       node.at_start = node.at_start || half.at_start;
       node.at_goal = node.at_goal || half.at_goal;
     }
     return std::nullopt;
+  }
+
+  // No pose in the boxes that are not cut and on no side is free. The first complaint.
+  [[nodiscard]] CellsComplaint check_leaves() const {
+    constexpr std::size_t kLeavesAtOnce = 16;
+    std::vector<CellsComplaint> complaints(leaves_.size());
+    parallel_for_ranges(leaves_.size(), kLeavesAtOnce, monitor_,
+                        [&](std::size_t first, std::size_t last, const Monitor& own) {
+                          own.check_interruption();
+                          for (std::size_t i = first; i < last; ++i) {
+                            const PathProof::PoseCell& cell = *leaves_[i]->cell;
+                            complaints[i] = cell.kind == Kind::kBlocked ? complaint_about_blocked(leaves_[i]->box, cell)
+                                                                        : complaint_about_beyond(leaves_[i]->box, cell);
+                            if (complaints[i]) return;
+                          }
+                        });
+    return first_of(complaints);
+  }
+
+  static CellsComplaint first_of(const std::vector<CellsComplaint>& complaints) {
+    const auto complaint =
+        std::find_if(complaints.begin(), complaints.end(), [](const auto& c) { return c.has_value(); });
+    return complaint == complaints.end() ? std::nullopt : *complaint;
   }
 
   [[nodiscard]] bool is_at_bounds(const PoseBox& box) const {
@@ -155,7 +194,7 @@ class CellsCheck {
     for (std::size_t i = 0; i < 8; ++i) {
       for (std::size_t k = 0; k < 3; ++k) corners[i][k] = ((i >> k) & 1) != 0 ? box.high[k] : box.low[k];
     }
-    return blocked_.complaint(orientations_of(box), corners, cell.robot, cell.obstacle, cell.common);
+    return blocked_.complaint(orientations_of(box), corners, cell.robot, cell.obstacle, cell.common, cell.drift);
   }
 
   // The origin of the robot is at x - R(q) reference.
@@ -237,6 +276,7 @@ class CellsCheck {
   Orientations orientations_;
   BlockedPoses blocked_;
   std::vector<BoxNode> roots_;
+  Leaves leaves_;  // that are on no side
 };
 
 }  // namespace

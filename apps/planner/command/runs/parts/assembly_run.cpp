@@ -237,8 +237,8 @@ json assembly_json(const Disassembly& answer, const Assembly& assembly, bool wit
 
 }  // namespace
 
-int run_assembly(const Arguments& a) {
-  const TimeLimit limit(a.time, a.session.monitor);
+int run_assembly(const Arguments& a, const TimeLimit& limit) {
+  const Stopwatch watch;
   const Assembly assembly = read_assembly(a.assembly, a.session.mesh);
   a.session.note_all(assembly.messages);
   if (!a.free_directions.empty()) return tell_free_directions(a, assembly);
@@ -252,7 +252,7 @@ int run_assembly(const Arguments& a) {
   tell(a, {"assembly",
            assembly.name,
            [&] { return assembly_json(answer, assembly, clear); },
-           {{"op", limit.passed(), {}}},
+           {{"op", watch.seconds(), {}}},
            [&] { print(answer, assembly, clear); },
            nullptr,
            [&] { return assembly_layers(answer, assembly); }});

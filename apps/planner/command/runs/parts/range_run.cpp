@@ -99,11 +99,11 @@ bool is_undecided(const RangeOfMotion& range) {
                      [](const RangePart& part) { return part.status == RangeStatus::kUndecided; });
 }
 
-int run_range(const Arguments& a) {
-  const TimeLimit limit(a.time, a.session.monitor);
+int run_range(const Arguments& a, const TimeLimit& limit) {
+  const Stopwatch watch;
   const Mechanism mechanism = read_mechanism(a.range, a.session.mesh);
   a.session.note_all(mechanism.messages);
-  const double setup_s = limit.passed();
+  const double setup_s = watch.seconds();
   RangeOfMotion range;
   try {
     range = range_of_motion(mechanism, limit.monitor());
@@ -113,7 +113,7 @@ int run_range(const Arguments& a) {
   tell(a, {"range",
            mechanism.name,
            [&] { return range_json(range, mechanism); },
-           {{"setup", setup_s, {}}, {"op", limit.passed() - setup_s, {}}},
+           {{"setup", setup_s, {}}, {"op", watch.seconds() - setup_s, {}}},
            [&] { print_range(range, mechanism); },
            nullptr,
            [&] { return range_layers(range, mechanism); }});

@@ -83,6 +83,7 @@ class FacetNumbering {
     const auto copy_marks = [](const std::vector<std::uint8_t>& from, std::vector<std::uint8_t>& all, std::size_t at) {
       std::copy(from.begin(), from.end(), all.begin() + static_cast<std::ptrdiff_t>(at));
     };
+    if (!mixed()) return;  // there are none, and no place to put them
     copy_marks(list.inside_marks_, result_.inside_marks, to.facets);
     copy_marks(list.corner_marks_, result_.corner_marks, to.corners);
     copy_marks(list.side_marks_, result_.side_marks, to.corners);

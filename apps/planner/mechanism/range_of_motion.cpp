@@ -8,26 +8,20 @@
 #include "apps/planner/mechanism/range_of_motion.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <optional>
-#include <tuple>
 #include <utility>
 
 #include "apps/planner/intersection/hulls_apart.h"
-#include "apps/planner/mechanism/contact_events.h"
+#include "apps/planner/mechanism/contact_stops.h"
+#include "apps/planner/mechanism/joint_events.h"
 #include "apps/planner/rigid/close_pieces.h"
 #include "apps/planner/rigid/motion_checker.h"
 #include "apps/planner/rigid/separation.h"
 #include "nef/geometry/vectors.h"
-#include "nef/number/interval.h"
-#include "nef/number/simplest_between.h"
-#include "nef/query/location_name.h"
 
 namespace nef::planner {
 namespace {
-
-using Pair = std::array<std::uint32_t, 2>;  // pieces: of the moving part, and of the others
 
 // Cells begin with this part of a quarter, or of the range of a slider.
 constexpr unsigned kFirstCells = 16;
@@ -68,8 +62,8 @@ class RangeSearch {
         fixed_(RigidBody::together(bodies())),
         allowing_(moving_, fixed_, ContactRule::kAllow),
         forbidding_(moving_, fixed_, ContactRule::kForbid) {
-    for (const RigidBody::Piece& piece : moving_.pieces()) moving_pieces_.emplace_back(piece);
-    for (const RigidBody::Piece& piece : fixed_.pieces()) fixed_pieces_.emplace_back(piece);
+    for (const RigidBody::Piece& piece : moving_.pieces()) pieces_.moving.emplace_back(piece);
+    for (const RigidBody::Piece& piece : fixed_.pieces()) pieces_.fixed.emplace_back(piece);
     const Vector3d centre = to_vector(m_.joint.turning_point());
     for (const RigidBody::Piece& piece : moving_.pieces()) {
       for (const Vector3d& point : piece.points) reach_ = std::max(reach_, (point - centre).norm());
@@ -126,7 +120,7 @@ class RangeSearch {
         const std::array<Rational, 2> b = extent(fixed_.pieces()[j]);
         if (a[0] != b[1] && a[1] != b[0]) continue;
         const Rational way = (a[0] + a[1] - b[0] - b[1]) / 2 / dot(n, n);
-        levels_.emplace(Pair{i, j},
+        levels_.emplace(PiecePair{i, j},
                         RigidBody::of_set(transform(convex_hull(fixed_.pieces()[j].mesh.vertices),
                                                     AffineMap::translate({way * n[0], way * n[1], way * n[2]}))));
       }
@@ -134,13 +128,13 @@ class RangeSearch {
   }
 
   // The piece that stays, where it may overlap the other one of the pair.
-  [[nodiscard]] const RigidBody::Piece& fixed_piece(const Pair& pair) const {
+  [[nodiscard]] const RigidBody::Piece& fixed_piece(const PiecePair& pair) const {
     const auto level = levels_.find(pair);
     return level == levels_.end() ? fixed_.pieces()[pair[1]] : level->second.pieces().front();
   }
 
   // Cells in order; `near` are the pairs that a wider cell left.
-  void examine(const Rational& from, const Rational& to, const std::vector<Pair>* near, unsigned depth) {
+  void examine(const Rational& from, const Rational& to, const std::vector<PiecePair>* near, unsigned depth) {
     monitor_.check_interruption();
     ++result_.cells;
     cells_left_ -= std::min<std::size_t>(cells_left_, 1);
@@ -150,17 +144,17 @@ class RangeSearch {
       examine(from, middle, near, depth + 1);
       return examine(middle, to, near, depth + 1);
     }
-    const std::vector<Pair> pairs = not_apart(sweep.all, near);
+    const std::vector<PiecePair> pairs = not_apart(sweep.all, near);
     if (pairs.empty()) return add_all(RangeStatus::kFree, from, to);
-    std::vector<Pair> others = pairs;
-    std::erase_if(others, [&](const Pair& pair) { return levels_.count(pair) > 0; });
+    std::vector<PiecePair> others = pairs;
+    std::erase_if(others, [&](const PiecePair& pair) { return levels_.count(pair) > 0; });
     const bool may_overlap = !others.empty();
     if (all_collide(sweep, may_overlap ? others : pairs)) {
       return add_all(may_overlap ? RangeStatus::kColliding : RangeStatus::kTouching, from, to);
     }
     const bool has_products = m_.joint.has_products();
     std::size_t cost = 0;
-    for (const Pair& pair : pairs) cost += event_cost(moving_pieces_[pair[0]], fixed_pieces_[pair[1]]);
+    for (const PiecePair& pair : pairs) cost += event_cost(pieces_.moving[pair[0]], pieces_.fixed[pair[1]]);
     if (depth < (has_products ? kDepth : kLastDepth) && (has_products ? cost > kFewProducts : cells_left_ > 0)) {
       const Rational middle = (from + to) / 2;
       examine(from, middle, &pairs, depth + 1);
@@ -173,15 +167,15 @@ class RangeSearch {
   }
 
   // The pairs that may come nearer than doubles can tell in the cell.
-  std::vector<Pair> not_apart(const MotionCell& cell, const std::vector<Pair>* near) {
-    std::vector<Pair> result;
-    const auto look_at = [&](const Pair& pair) {
+  std::vector<PiecePair> not_apart(const MotionCell& cell, const std::vector<PiecePair>* near) {
+    std::vector<PiecePair> result;
+    const auto look_at = [&](const PiecePair& pair) {
       place(moving_.pieces()[pair[0]], cell, rough_moving_);
       place(fixed_piece(pair), rough_fixed_);
       if (plane_between(rough_moving_, rough_fixed_) != Separation::kApart) result.push_back(pair);
     };
     if (near != nullptr) {
-      for (const Pair& pair : *near) look_at(pair);
+      for (const PiecePair& pair : *near) look_at(pair);
     } else {
       any_close_leaf(cell, moving_, fixed_, root_pair(moving_, fixed_), [&](std::uint32_t a, std::uint32_t b) {
         look_at({a, b});
@@ -192,8 +186,8 @@ class RangeSearch {
   }
 
   // Do two pieces overlap at the middle, so deeply that they do in all of the cell?
-  bool all_collide(const Joint::Sweep& sweep, const std::vector<Pair>& pairs) {
-    for (const Pair& pair : pairs) {
+  bool all_collide(const Joint::Sweep& sweep, const std::vector<PiecePair>& pairs) {
+    for (const PiecePair& pair : pairs) {
       const RigidBody::Piece& a = moving_.pieces()[pair[0]];
       // A rotation by x moves a point at distance r by 2 r sin(x / 2) at most, and turn_spread is that times sqrt(2);
       // the roundings of both are far below the rest.
@@ -221,144 +215,14 @@ class RangeSearch {
     return at->second;
   }
 
-  struct Event {
-    QuadraticRoot value;
-    std::vector<std::pair<Pair, ContactItems>> items;
-    std::optional<std::array<Rational, 2>> between;  // of a screw, if the value is not known exactly
-    std::optional<QuadraticRoot> algebraic;          // that value, if it is known to be this one
-    bool single = true;                              // exactly one value, whatever it is
-
-    [[nodiscard]] std::array<Rational, 2> bounds(unsigned bits) const {
-      return between ? *between : enclosure(value, bits);
-    }
-    [[nodiscard]] RangeEnd end(std::vector<ContactPair> stops = {}) const {
-      if (algebraic) return {*algebraic, std::nullopt, std::move(stops)};
-      return {value, between, std::move(stops)};
-    }
-  };
-
-  // The value in doubles. A nearest double is off by 2^-53 of it, a root by as much again.
-  static Interval enclosure_of(const QuadraticRoot& value) {
-    const double rational = nearest_double(value.rational);
-    const double root = value.sign * std::sqrt(nearest_double(value.square));
-    return Interval::around(rational + root, 0x1p-50 * (std::fabs(rational) + std::fabs(root)) + MotionCell::kVanished);
-  }
-
-  std::vector<Event> events_in(const Rational& from, const Rational& to, const std::vector<Pair>& pairs) {
-    struct Found {
-      QuadraticRoot value;
-      Interval rough;
-      Pair pair;
-      ContactItems items;
-    };
-    const EventCell cell(m_.joint, from, to);
-    std::vector<Found> found;
-    for (const Pair& pair : pairs) {
-      std::vector<ContactEvent> of_pair;
-      append_events(moving_pieces_[pair[0]], fixed_pieces_[pair[1]], cell, of_pair);
-      for (ContactEvent& event : of_pair) {
-        const Interval rough = enclosure_of(event.value);
-        found.push_back({std::move(event.value), rough, pair, event.items});
-      }
-    }
-    std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
-      if (a.rough.high() < b.rough.low()) return true;
-      if (b.rough.high() < a.rough.low()) return false;
-      return compare(a.value, b.value) < 0;
-    });
-    std::vector<Event> events;
-    for (Found& event : found) {
-      if (events.empty() || compare(events.back().value, event.value) != 0) {
-        events.push_back({std::move(event.value), {}, std::nullopt, std::nullopt, true});
-      }
-      events.back().items.emplace_back(event.pair, event.items);
-    }
-    result_.events += events.size();
-    return events;
-  }
-
-  // The same for a screw. Products that are multiples of each other have the same zeros; zeros of others that are not
-  // known to be apart are one event, which may be several values.
-  std::vector<Event> screw_events_in(const Rational& from, const Rational& to, const std::vector<Pair>& pairs) {
-    struct Group {
-      ScrewProduct product;
-      std::vector<std::pair<Pair, ContactItems>> items;
-    };
-    const EventCell cell(m_.joint, from, to);
-    std::map<std::array<Rational, 6>, Group> groups;
-    for (const Pair& pair : pairs) {
-      std::vector<ScrewContact> of_pair;
-      append_products(moving_pieces_[pair[0]], fixed_pieces_[pair[1]], cell, of_pair);
-      for (ScrewContact& contact : of_pair) {
-        Group& group = groups[contact.product.normalized()];
-        group.product = std::move(contact.product);
-        group.items.emplace_back(pair, contact.items);
-      }
-    }
-    products_.clear();
-    struct Found {
-      Event event;
-      std::size_t product = 0;
-    };
-    std::vector<Found> found;
-    for (auto& [key, group] : groups) {
-      monitor_.check_interruption();
-      for (const ScrewRoot& root : roots_of(group.product, {from, to})) {
-        Event event{root.exact ? *root.exact : QuadraticRoot(root.low), group.items, std::nullopt, root.algebraic,
-                    root.single};
-        if (!root.exact) event.between = {root.low, root.high};
-        found.push_back({std::move(event), products_.size()});
-      }
-      products_.push_back(std::move(group.product));
-    }
-    constexpr unsigned kBits = 80;
-    std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
-      return a.event.bounds(kBits)[0] < b.event.bounds(kBits)[0];
-    });
-    const auto is_same = [&](const Found& a, const Found& b) {
-      if (!a.event.between || !b.event.between) {
-        return !a.event.between && !b.event.between && compare(a.event.value, b.event.value) == 0;
-      }
-      const auto& [x, y] = std::tie(a.event.algebraic, b.event.algebraic);
-      if (x || y) return x && y && compare(*x, *y) == 0;
-      return a.product != b.product && have_equal_quotients(products_[a.product], products_[b.product]);
-    };
-    std::vector<Event> events;
-    std::vector<const Found*> of_last;  // zeros of the last event
-    for (const Found& next : found) {
-      if (events.empty() || events.back().bounds(kBits)[1] < next.event.bounds(kBits)[0]) {
-        events.push_back(next.event);
-        of_last = {&next};
-        continue;
-      }
-      Event& last = events.back();
-      last.items.insert(last.items.end(), next.event.items.begin(), next.event.items.end());
-      const bool twice = std::any_of(of_last.begin(), of_last.end(), [&](const Found* other) {
-        return other->product == next.product && !is_same(*other, next);
-      });
-      const bool same = last.single && next.event.single && !twice && is_same(*of_last.front(), next);
-      of_last.push_back(&next);
-      if (same && !last.between) continue;
-      const std::array<Rational, 2> before = last.bounds(kBits);
-      const std::array<Rational, 2> now = next.event.bounds(kBits);
-      if (same) {
-        last.between = {std::max(before[0], now[0]), std::min(before[1], now[1])};
-      } else {
-        last.between = {std::min(before[0], now[0]), std::max(before[1], now[1])};
-        last.single = false;
-        last.algebraic.reset();
-      }
-      last.value = (*last.between)[0];
-    }
-    for (Event& event : events)
-      std::sort(event.items.begin(), event.items.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
-    result_.events += events.size();
-    return events;
-  }
-
-  void find_events(const Rational& from, const Rational& to, const std::vector<Pair>& pairs) {
+  void find_events(const Rational& from, const Rational& to, const std::vector<PiecePair>& pairs) {
     const bool screws = m_.joint.kind() == Joint::Kind::kScrew;
-    std::vector<Event> events = screws ? screw_events_in(from, to, pairs) : events_in(from, to, pairs);
+    ScrewEvents of_screw;
+    if (screws) of_screw = screw_events(m_.joint, pieces_, pairs, from, to, monitor_);
+    std::vector<JointEvent> events =
+        screws ? std::move(of_screw.events) : exact_events(m_.joint, pieces_, pairs, from, to);
+    products_ = std::move(of_screw.products);
+    result_.events += events.size();
     // The cell's ends are events, too.
     if (events.empty() || compare(events.front().value, from) != 0) events.insert(events.begin(), end_of_cell(from));
     if (events.back().bounds(kSampleBits)[1] != to) events.push_back(end_of_cell(to));
@@ -373,7 +237,9 @@ class RangeSearch {
       const RangeStatus after = i + 1 == events.size() ? between.back() : between[i];
       const RangeStatus at = status_of(events[i], before, after, {pairs, samples[i == 0 ? 0 : i - 1]});
       const bool changes = at != before || at != after;
-      std::vector<ContactPair> stops = changes ? stops_at(events[i]) : std::vector<ContactPair>{};
+      std::vector<ContactPair> stops =
+          changes ? stops_at(events[i], m_.joint, pieces_, {sets_.moving, sets_.fixed, owners_})
+                  : std::vector<ContactPair>{};
       if (events[i].single) {
         add_value(at, events[i].end(std::move(stops)));
       } else {
@@ -385,11 +251,9 @@ class RangeSearch {
   }
 
   // Where what follows begins.
-  static RangeEnd upper_end(const Event& event) {
+  static RangeEnd upper_end(const JointEvent& event) {
     return event.single ? event.end() : RangeEnd{(*event.between)[1], std::nullopt, {}};
   }
-
-  static Event end_of_cell(const Rational& value) { return {value, {}, std::nullopt, std::nullopt, true}; }
 
   // Is the status of a value what pose() tells, whose position may be a little off? No product changes its sign there.
   [[nodiscard]] bool is_typical(const ScrewPart& part, const Rational& value) const {
@@ -399,25 +263,15 @@ class RangeSearch {
     });
   }
 
-  static Rational value_between(const Event& a, const Event& b) {
-    for (unsigned bits = 20;; bits *= 2) {
-      const Rational low = a.bounds(bits)[1];
-      const Rational high = b.bounds(bits)[0];
-      if (low >= high) continue;
-      const Rational room = (high - low) / 4;
-      return simplest_between(low + room, high - room);
-    }
-  }
-
   // The pairs of a cell that may meet, and a value next to an event, with no event between the two.
   struct Beside {
-    const std::vector<Pair>& pairs;
+    const std::vector<PiecePair>& pairs;
     const Rational& value;
   };
 
   // At the ends of the cell `before` or `after` is not known, and the other one stands for it: what follows from both
   // being equal is right then, too, since it is found by looking at the value itself.
-  RangeStatus status_of(const Event& event, RangeStatus before, RangeStatus after, const Beside& beside) {
+  RangeStatus status_of(const JointEvent& event, RangeStatus before, RangeStatus after, const Beside& beside) {
     if (event.items.empty()) return after;  // nothing changes
     if (before == RangeStatus::kUndecided || after == RangeStatus::kUndecided) return RangeStatus::kUndecided;
     const bool collides_before = before == RangeStatus::kColliding;
@@ -436,7 +290,7 @@ class RangeSearch {
   }
 
   // Are the pieces apart, or does a pair collide, as far as doubles can tell, in all of an event of a screw?
-  bool stays(const Event& event, RangeStatus status, const std::vector<Pair>& pairs) {
+  bool stays(const JointEvent& event, RangeStatus status, const std::vector<PiecePair>& pairs) {
     const Joint::Sweep sweep = m_.joint.sweep((*event.between)[0], (*event.between)[1], 0);
     return status == RangeStatus::kFree ? not_apart(sweep.all, &pairs).empty() : all_collide(sweep, pairs);
   }
@@ -460,92 +314,40 @@ class RangeSearch {
   }
 
   // Does a pair that has an event touch there? None overlaps next to it.
-  bool touch_at(const Event& event) {
-    std::vector<Pair> concerned;
+  bool touch_at(const JointEvent& event) {
+    std::vector<PiecePair> concerned;
     for (const auto& [pair, items] : event.items) concerned.push_back(pair);
     concerned.erase(std::unique(concerned.begin(), concerned.end()), concerned.end());
-    const std::vector<Pair> open = not_apart(m_.joint.sweep(event.value).all, &concerned);
-    return std::any_of(open.begin(), open.end(), [&](const Pair& pair) {
-      return PlacedPiece(moving_pieces_[pair[0]], m_.joint, event.value).touches(fixed_pieces_[pair[1]]);
+    const std::vector<PiecePair> open = not_apart(m_.joint.sweep(event.value).all, &concerned);
+    return std::any_of(open.begin(), open.end(), [&](const PiecePair& pair) {
+      return PlacedPiece(pieces_.moving[pair[0]], m_.joint, event.value).touches(pieces_.fixed[pair[1]]);
     });
   }
 
   // Does a pair of the cell overlap at an event, next to which some pairs do?
-  bool overlap_at(const Event& event, const Beside& beside) {
+  bool overlap_at(const JointEvent& event, const Beside& beside) {
     const Joint::Sweep sweep = m_.joint.sweep(event.value);
     if (all_collide(sweep, beside.pairs)) return true;
-    const std::vector<Pair> open = not_apart(sweep.all, &beside.pairs);
-    return std::any_of(open.begin(), open.end(), [&](const Pair& pair) {
+    const std::vector<PiecePair> open = not_apart(sweep.all, &beside.pairs);
+    return std::any_of(open.begin(), open.end(), [&](const PiecePair& pair) {
       if (!overlap_at(beside.value, pair)) return false;
-      const PlacedPiece placed(moving_pieces_[pair[0]], m_.joint, event.value);
+      const PlacedPiece placed(pieces_.moving[pair[0]], m_.joint, event.value);
       return std::none_of(event.items.begin(), event.items.end(), [&](const auto& item) {
-        return item.first == pair && placed.is_between(fixed_pieces_[pair[1]], item.second);
+        return item.first == pair && placed.is_between(pieces_.fixed[pair[1]], item.second);
       });
     });
   }
 
   // Exactly.
-  bool overlap_at(const Rational& value, const Pair& pair) const {
+  bool overlap_at(const Rational& value, const PiecePair& pair) const {
     const RigidPose pose = m_.joint.pose(value);
     const Matrix3 turn = rotation_between(pose.quaternion, pose.quaternion);
     std::vector<Rational3> placed;
-    for (const Rational3& x : moving_pieces_[pair[0]].vertices()) {
+    for (const Rational3& x : pieces_.moving[pair[0]].vertices()) {
       placed.push_back(
           {dot(turn[0], x) + pose.position[0], dot(turn[1], x) + pose.position[1], dot(turn[2], x) + pose.position[2]});
     }
-    return !hulls_are_apart(placed, fixed_pieces_[pair[1]].vertices(), false);
-  }
-
-  std::vector<ContactPair> stops_at(const Event& event) {
-    std::vector<ContactPair> result;
-    std::optional<std::pair<std::uint32_t, PlacedPiece>> placed;
-    for (const auto& [pair, items] : event.items) {
-      const ContactPiece& fixed = fixed_pieces_[pair[1]];
-      if (event.between) {
-        const Joint::Sweep sweep = m_.joint.sweep((*event.between)[0], (*event.between)[1], 0);
-        if (!may_touch(moving_pieces_[pair[0]], fixed, sweep.all, items)) continue;
-      } else {
-        if (!placed || placed->first != pair[0]) {
-          placed.emplace(pair[0], PlacedPiece(moving_pieces_[pair[0]], m_.joint, event.value));
-        }
-        if (!placed->second.touch(fixed, items)) continue;
-      }
-      using Kind = ContactItems::Kind;
-      const std::size_t owner = owners_[pair[1]];
-      ContactPair stop{
-          name_of(sets_.moving, place_of(moving_pieces_[pair[0]], items.moving, items.kind == Kind::kVertexFace,
-                                         items.kind == Kind::kFaceVertex)),
-          owner,
-          name_of(sets_.fixed[owner],
-                  place_of(fixed, items.fixed, items.kind == Kind::kFaceVertex, items.kind == Kind::kVertexFace))};
-      const auto same = [&](const ContactPair& other) {
-        return other.moving == stop.moving && other.fixed == stop.fixed && other.of_fixed == stop.of_fixed;
-      };
-      if (std::none_of(result.begin(), result.end(), same)) result.push_back(std::move(stop));
-    }
-    return result;
-  }
-
-  // A point inside an item of a piece.
-  static Rational3 place_of(const ContactPiece& piece, std::uint32_t item, bool is_vertex, bool is_face) {
-    if (is_vertex) return piece.vertices()[item];
-    std::vector<std::uint32_t> corners;
-    if (is_face) {
-      corners = piece.faces[item].ring;
-    } else {
-      corners = {piece.edges[item].from, piece.edges[item].to};
-    }
-    Rational3 middle;
-    for (const std::uint32_t corner : corners) {
-      for (std::size_t k = 0; k < 3; ++k) middle[k] += piece.vertices()[corner][k] / Rational(corners.size());
-    }
-    return middle;
-  }
-
-  // The cell of the set that a point is in: pieces have vertices, edges and faces where the set has none.
-  static std::string name_of(const Polyhedron& set, const Rational3& point) {
-    const Location at = locate(set, point);
-    return std::string(location_name(at.kind)) + " " + std::to_string(at.index);
+    return !hulls_are_apart(placed, pieces_.fixed[pair[1]].vertices(), false);
   }
 
   void add_all(RangeStatus status, const Rational& from, const Rational& to) {
@@ -576,10 +378,10 @@ class RangeSearch {
   RigidBody fixed_;
   MotionChecker allowing_;
   MotionChecker forbidding_;
-  std::vector<ContactPiece> moving_pieces_;
-  std::vector<ContactPiece> fixed_pieces_;
+  MechanismPieces pieces_;
   std::map<Rational, RangeStatus> known_;
-  std::map<Pair, RigidBody> levels_;  // of pairs that have only a plane across the axis in common: the piece that stays
+  // Of pairs that have only a plane across the axis in common: the piece that stays.
+  std::map<PiecePair, RigidBody> levels_;
   std::size_t cells_left_ = 0;
   std::vector<ScrewProduct> products_;  // of a screw, in the cell that is looked at
   double reach_ = 0;                    // of the moving part, from the joint's turning point

@@ -17,6 +17,8 @@
 
 namespace nef {
 
+struct MeetingSets;
+
 /// Answers for many translations of the same two sets. Both are put into trees of boxes once; a question moves points
 /// of B where the sets are near each other, and stops at the first common point. May be asked from several threads at
 /// once.
@@ -59,8 +61,7 @@ class IntersectionQuery {
   [[nodiscard]] bool surely_cross(const Approximation3& translation, Crossings& recent, bool search = true) const;
 
  private:
-  struct Body;
-  std::shared_ptr<const Body> body_;
+  std::shared_ptr<const MeetingSets> sets_;
 };
 
 /// IntersectionQuery(a, b).meet(translation), for one question: true if A and B + translation have a common point.

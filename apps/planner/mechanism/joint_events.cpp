@@ -51,7 +51,7 @@ struct FoundRoot {
   std::size_t product = 0;
 };
 
-constexpr unsigned kRootBits = 80;
+constexpr unsigned kOrderBits = 80;
 
 // All zeros, by their lower bounds. Moves the products to `products`.
 std::vector<FoundRoot> roots_in(Products&& by_quotient, const Rational& from, const Rational& to,
@@ -68,7 +68,7 @@ std::vector<FoundRoot> roots_in(Products&& by_quotient, const Rational& from, co
     products.push_back(std::move(same.product));
   }
   std::stable_sort(found.begin(), found.end(), [](const FoundRoot& a, const FoundRoot& b) {
-    return a.event.bounds(kRootBits)[0] < b.event.bounds(kRootBits)[0];
+    return a.event.bounds(kOrderBits)[0] < b.event.bounds(kOrderBits)[0];
   });
   return found;
 }
@@ -88,7 +88,7 @@ std::vector<JointEvent> merged(const std::vector<FoundRoot>& found, const std::v
   std::vector<JointEvent> events;
   std::vector<const FoundRoot*> of_last;  // zeros of the last event
   for (const FoundRoot& next : found) {
-    if (events.empty() || events.back().bounds(kRootBits)[1] < next.event.bounds(kRootBits)[0]) {
+    if (events.empty() || events.back().bounds(kOrderBits)[1] < next.event.bounds(kOrderBits)[0]) {
       events.push_back(next.event);
       of_last = {&next};
       continue;
@@ -101,8 +101,8 @@ std::vector<JointEvent> merged(const std::vector<FoundRoot>& found, const std::v
     const bool same = last.single && next.event.single && !twice && is_same(*of_last.front(), next, products);
     of_last.push_back(&next);
     if (same && !last.between) continue;
-    const std::array<Rational, 2> before = last.bounds(kRootBits);
-    const std::array<Rational, 2> now = next.event.bounds(kRootBits);
+    const std::array<Rational, 2> before = last.bounds(kOrderBits);
+    const std::array<Rational, 2> now = next.event.bounds(kOrderBits);
     if (same) {
       last.between = {std::max(before[0], now[0]), std::min(before[1], now[1])};
     } else {

@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
     for (const auto& [low, high] : nef::bench::small_cubes()) {
       cubes.push_back(nef::make_box({low[0], low[1], low[2]}, {high[0], high[1], high[2]}));
     }
-    if (argc == 2) nef::bench::run(mesh, cubes, nef::Tiling().limit);
+    if (argc == 2) nef::bench::run(mesh, cubes, nef::tiling_for(mesh.vertices.size()).limit);
     for (int i = 2; i < argc; ++i) nef::bench::run(mesh, cubes, std::strtoul(argv[i], nullptr, 10));
   } catch (const std::exception& e) {
     std::fprintf(stderr, "nef_bench_small_cuts: %s\n", e.what());

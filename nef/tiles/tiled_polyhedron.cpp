@@ -79,6 +79,9 @@ TiledPolyhedron::TiledPolyhedron() : TiledPolyhedron(uniform_leaf(0), Tiling{}) 
 TiledPolyhedron::TiledPolyhedron(const Polyhedron& set, const Tiling& tiling, const Monitor& monitor)
     : TiledPolyhedron(subdivided(in_two_marks(set, monitor), tiling, monitor), tiling) {}
 
+TiledPolyhedron::TiledPolyhedron(const Polyhedron& set)
+    : TiledPolyhedron(set, tiling_for(set.complex().vertex_count())) {}
+
 TiledPolyhedron::TiledPolyhedron(std::span<const Polyhedron> pieces, const Tiling& tiling, const Monitor& monitor)
     : TiledPolyhedron(union_in_tiles({.count = static_cast<std::uint32_t>(pieces.size()),
                                       .set = [pieces](std::uint32_t i, const Monitor&) { return pieces[i]; }},

@@ -25,7 +25,9 @@ class TiledPolyhedron {
   /// The empty set.
   TiledPolyhedron();
   /// Cuts a set into tiles. O(n log n).
-  explicit TiledPolyhedron(const Polyhedron& set, const Tiling& tiling = {}, const Monitor& monitor = {});
+  TiledPolyhedron(const Polyhedron& set, const Tiling& tiling, const Monitor& monitor = {});
+  /// The same with tiling_for() its vertices.
+  explicit TiledPolyhedron(const Polyhedron& set);
   /// The union of any number of sets, region by region (import/union_in_tiles.h).
   explicit TiledPolyhedron(std::span<const Polyhedron> pieces, const Tiling& tiling = {.limit = kVerticesOfTileInFile},
                            const Monitor& monitor = {});

@@ -50,33 +50,35 @@ auto with_plain(TiledWithPlain operation) {
   };
 }
 
-Tiling tiling_of(std::size_t limit) {
+// Without a limit, that which suits so many vertices.
+Tiling tiling_of(std::optional<std::size_t> limit, std::size_t vertices) {
   constexpr std::size_t kFewest = 32;
-  if (limit < kFewest) throw InputError("limit must be at least 32 vertices");
-  return {.limit = limit};
+  if (!limit) return tiling_for(vertices);
+  if (*limit < kFewest) throw InputError("limit must be at least 32 vertices");
+  return {.limit = *limit};
 }
 
 // Nothing is the empty set.
-Tiles cut(const std::optional<Polyhedron>& given, std::size_t limit, unsigned threads) {
-  const Tiling tiling = tiling_of(limit);
+Tiles cut(const std::optional<Polyhedron>& given, std::optional<std::size_t> limit, unsigned threads) {
   const Polyhedron set = given.value_or(Polyhedron());
+  const Tiling tiling = tiling_of(limit, set.complex().vertex_count());
   return {call(items(set),
                [=](const Monitor& monitor) { return TiledPolyhedron(set, tiling, monitor.on_threads(threads)); }),
           threads};
 }
 
 Tiles unite_in_tiles(const py::iterable& iterable, std::size_t limit, unsigned threads) {
-  const Tiling tiling = tiling_of(limit);
+  const Tiling tiling = tiling_of(limit, 0);
   const std::vector<Polyhedron> sets = sets_of(iterable);
   return {call(items(sets),
                [=](const Monitor& monitor) { return TiledPolyhedron(sets, tiling, monitor.on_threads(threads)); }),
           threads};
 }
 
-Tiles cut_mesh(py::handle vertices, py::handle faces, bool strict, bool surface, std::size_t limit, unsigned threads,
-               const std::string& crossings, py::handle close) {
-  const Tiling tiling = tiling_of(limit);
+Tiles cut_mesh(py::handle vertices, py::handle faces, bool strict, bool surface, std::optional<std::size_t> limit,
+               unsigned threads, const std::string& crossings, py::handle close) {
   auto mesh = std::make_shared<const Mesh>(mesh_from_arrays(vertices, faces));
+  const Tiling tiling = tiling_of(limit, mesh->vertices.size());
   MeshOptions options = mesh_options(crossings, close);
   options.strict = strict;
   options.as_surface = surface;
@@ -235,16 +237,16 @@ void bind_tiles(py::module_& m) {
 The cost of an operation depends on the tiles that it touches, and versions share the rest: for many small steps on a large
 set whose results are needed one by one, and for sets larger than memory. Immutable. Operators are those of Polyhedron; the second
 operand may be a Polyhedron. Labels other than 0 are taken as 1. Not hashable.)");
-  c.def(py::init(&cut), py::arg("set") = py::none(), py::arg("limit") = Tiling().limit, py::arg("threads") = 1,
-        "Cuts a set (None: the empty set) into tiles of at most `limit` vertices. threads: of this and of all "
-        "operations; 0: as many as the "
-        "machine has.");
+  c.def(py::init(&cut), py::arg("set") = py::none(), py::arg("limit") = py::none(), py::arg("threads") = 1,
+        "Cuts a set (None: the empty set) into tiles of at most `limit` vertices (None: a 256th of the set's, but at "
+        "least 128; small tiles are for very many small steps). threads: of this and of all operations; 0: as many as "
+        "the machine has.");
   bind_tiled_operators(c);
   bind_tiled_methods(c);
   m.def("unite_in_tiles", &unite_in_tiles, py::arg("sets"), py::arg("limit") = kVerticesOfTileInFile,
         py::arg("threads") = 1, "The union of many sets, region by region: a TiledPolyhedron.");
   m.def("tiles_from_mesh", &cut_mesh, py::arg("vertices"), py::arg("faces"), py::arg("strict") = false,
-        py::arg("surface") = false, py::arg("limit") = Tiling().limit, py::arg("threads") = 1,
+        py::arg("surface") = false, py::arg("limit") = py::none(), py::arg("threads") = 1,
         py::arg("crossings") = "refuse", py::arg("close") = 0.0,
         R"(The solid that a mesh bounds, cut before it is made a complex: a TiledPolyhedron.
 

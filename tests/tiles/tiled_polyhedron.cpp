@@ -76,6 +76,15 @@ TEST_CASE("tiles small enough to split and join under way", "[threads]") {
   });
 }
 
+TEST_CASE("tiles of a large set are larger, if nobody says how large") {
+  CHECK(tiling_for(0).limit == 128);
+  CHECK(tiling_for(256 * 128).limit == 128);
+  CHECK(tiling_for(655'362).limit == 2560);
+  const Polyhedron box = make_box({0, 0, 0}, {1, 1, 1});
+  CHECK(TiledPolyhedron(box).tiling().limit == 128);
+  CHECK(TiledPolyhedron(box, {.limit = 64}).tiling().limit == 64);
+}
+
 TEST_CASE("a tile that nobody has cut is cut where a step touches it") {
   std::vector<Polyhedron> boxes;
   for (int i = 0; i < 10; ++i) {

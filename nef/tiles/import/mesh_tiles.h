@@ -11,8 +11,9 @@ namespace nef {
 /// TiledPolyhedron(from_mesh(...)), without ever holding the whole complex: space is cut until few faces meet a box,
 /// and of each box its part of the surface is made a complex, marked by the way its faces are turned. A mesh of fewer
 /// faces than `piece`, and one that from_mesh does not take as it is (faces that touch, say), is made whole first.
-/// Throws InputError as from_mesh does. O(n log n); memory for the mesh, its check, and a piece for each thread.
-TiledPolyhedron tiles_from_mesh(const Mesh& mesh, const MeshOptions& options = {}, const Tiling& tiling = {},
+/// tiling_for() the vertices of the mesh suits few steps. Throws InputError as from_mesh does. O(n log n); memory for
+/// the mesh, its check, and a piece for each thread.
+TiledPolyhedron tiles_from_mesh(const Mesh& mesh, const MeshOptions& options, const Tiling& tiling,
                                 Messages* messages = nullptr, std::size_t piece = 50'000);
 
 }  // namespace nef

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// Triangles are linked across their sides. Each one that is left, in their order, grows by its neighbours: the ring is
+// a linked list, and a heap has the sides that a neighbour may be taken in across, since only the sides beside a
+// triangle that was taken in change their answer.
 #include "apps/minkowski/convolution/facets/convex_pieces.h"
 
 #include <algorithm>
@@ -34,25 +38,81 @@ bool ConvexPieces::is_slit(std::uint32_t u, std::uint32_t v) const {
   return sides_.count(pair_key(u, v)) > 0 && sides_.count(pair_key(v, u)) > 0;
 }
 
-// Takes `other` into `ring` across a side that both have, if the result is convex.
-bool ConvexPieces::merge(Ring& ring, const Ring& other) const {
-  const std::size_t n = ring.size();
-  const std::size_t m = other.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < m; ++j) {
-      if (ring[i] != other[(j + 1) % m] || ring[(i + 1) % n] != other[j]) continue;
-      if (is_slit(ring[i], other[j])) return false;
-      const bool convex = turns_left(ring[(i + n - 1) % n], ring[i], other[(j + 2) % m]) &&
-                          turns_left(other[(j + m - 1) % m], other[j], ring[(i + 2) % n]);
-      if (!convex) return false;
-      Ring merged;
-      for (std::size_t k = 1; k <= n; ++k) merged.push_back(ring[(i + k) % n]);
-      for (std::size_t k = 2; k < m; ++k) merged.push_back(other[(j + k) % m]);
-      ring = std::move(merged);
-      return true;
+// The corners of all triangles as a linked list for each, and for the side after a corner the one across it.
+void ConvexPieces::link(const std::vector<Triangulator::Triangle>& triangles) {
+  corners_.clear();
+  std::vector<Side> sides;
+  for (const Triangulator::Triangle& t : triangles) {
+    const auto first = static_cast<std::uint32_t>(corners_.size());
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      corners_.push_back({t[k], first + (k + 2) % 3, first + (k + 1) % 3, kNone});
+      sides.push_back({edge_key(t[k], t[(k + 1) % 3]), first + k});
     }
   }
-  return false;
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& a, const Side& b) { return a.key != b.key ? a.key < b.key : a.corner < b.corner; });
+  for (std::size_t i = 1; i < sides.size(); ++i) {
+    if (sides[i].key != sides[i - 1].key) continue;
+    Corner& one = corners_[sides[i - 1].corner];
+    Corner& other = corners_[sides[i].corner];
+    if (one.vertex == other.vertex || one.across != kNone || is_slit(one.vertex, other.vertex)) continue;
+    one.across = sides[i].corner;
+    other.across = sides[i - 1].corner;
+  }
+}
+
+// Takes the triangle across the side after a corner into the ring, if the result is convex. The corner then leads to
+// the triangle's third one.
+bool ConvexPieces::merge(std::uint32_t corner) {
+  Corner& a = corners_[corner];
+  const std::uint32_t of_b = a.next;
+  Corner& b = corners_[of_b];
+  Corner& third = corners_[corners_[a.across].prev];
+  const bool convex = turns_left(corners_[a.prev].vertex, a.vertex, third.vertex) &&
+                      turns_left(third.vertex, b.vertex, corners_[b.next].vertex);
+  if (!convex) return false;
+  // The triangle runs from b to a, to its third corner and back. Its corner at a becomes what a was before.
+  const std::uint32_t of_third = corners_[a.across].prev;
+  a.across = corners_[corners_[a.across].next].across;
+  a.next = of_third;
+  third.prev = corner;
+  third.next = of_b;
+  b.prev = of_third;
+  return true;
+}
+
+// The ring of a triangle, after it has taken in others as long as what comes of it is convex: always the first one of
+// those that it can.
+ConvexPieces::Ring ConvexPieces::grown(std::uint32_t triangle) {
+  const auto later = [](const Candidate& x, const Candidate& y) { return x.triangle > y.triangle; };
+  const auto look_across = [&](std::uint32_t corner) {
+    const std::uint32_t across = corners_[corner].across;
+    if (across == kNone || taken_[across / 3]) return;
+    candidates_.push_back({across / 3, corner});
+    std::push_heap(candidates_.begin(), candidates_.end(), later);
+  };
+  std::uint32_t start = 3 * triangle;
+  taken_[triangle] = true;
+  for (std::uint32_t k = 0; k < 3; ++k) look_across(start + k);
+  while (!candidates_.empty()) {
+    std::pop_heap(candidates_.begin(), candidates_.end(), later);
+    const Candidate next = candidates_.back();
+    candidates_.pop_back();
+    const bool is_there = corners_[next.corner].across != kNone && corners_[next.corner].across / 3 == next.triangle;
+    if (!is_there || taken_[next.triangle] || !merge(next.corner)) continue;
+    taken_[next.triangle] = true;
+    const std::uint32_t third = corners_[next.corner].next;
+    start = corners_[third].next;
+    // Where the ring turns has changed at both ends of what was a side, and so has the answer for the sides beside it.
+    for (const std::uint32_t corner : {corners_[next.corner].prev, next.corner, third, start}) look_across(corner);
+  }
+  Ring ring;
+  std::uint32_t at = start;
+  do {
+    ring.push_back(corners_[at].vertex);
+    at = corners_[at].next;
+  } while (at != start);
+  return ring;
 }
 
 std::vector<std::vector<std::uint32_t>> ConvexPieces::cut(const std::vector<Ring>& rings,
@@ -64,17 +124,11 @@ std::vector<std::vector<std::uint32_t>> ConvexPieces::cut(const std::vector<Ring
   std::vector<Triangulator::Triangle> triangles;
   const bool done = triangulator_.triangulate(rings, axis_, sign_, triangles);
   NEF_ASSERT(done);
+  link(triangles);
+  taken_.assign(triangles.size(), false);
   std::vector<Ring> pieces;
-  for (const Triangulator::Triangle& t : triangles) pieces.emplace_back(t.begin(), t.end());
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    for (std::size_t j = i + 1; j < pieces.size();) {
-      if (!merge(pieces[i], pieces[j])) {
-        ++j;
-        continue;
-      }
-      pieces.erase(pieces.begin() + static_cast<std::ptrdiff_t>(j));
-      j = i + 1;
-    }
+  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+    if (!taken_[t]) pieces.push_back(grown(t));
   }
   return pieces;
 }

@@ -19,22 +19,42 @@ class ConvexPieces {
 
   /// Cuts a polygon, given by its rings as Triangulator takes them, into pieces that are turned like it. Triangles of a
   /// triangulation are merged as long as what comes of it is convex [Hertel, Mehlhorn 1983], but not across sides that
-  /// rings walk both ways: at most four times as many as there must be. O(n) for a convex polygon.
+  /// rings walk both ways: at most four times as many as there must be. O(n log n), O(n) for a convex polygon.
   std::vector<std::vector<std::uint32_t>> cut(const std::vector<std::vector<std::uint32_t>>& rings,
                                               const ProjectionAxis& projection);
 
  private:
   using Ring = std::vector<std::uint32_t>;
+
+  // A corner of a triangle, three in a row, in the ring of the piece that the triangle is in.
+  struct Corner {
+    std::uint32_t vertex, prev, next;
+    std::uint32_t across;  // the corner where the triangle beyond the side to the next corner runs through it; or kNone
+  };
+  struct Side {
+    std::uint64_t key;
+    std::uint32_t corner;
+  };
+  // A triangle, and the corner before the side that a ring has in common with it.
+  struct Candidate {
+    std::uint32_t triangle, corner;
+  };
+
   [[nodiscard]] bool turns_left(std::uint32_t a, std::uint32_t b, std::uint32_t c) const;
   [[nodiscard]] bool is_convex(const Ring& ring) const;
   void find_slits(const std::vector<Ring>& rings);
   [[nodiscard]] bool is_slit(std::uint32_t u, std::uint32_t v) const;
-  [[nodiscard]] bool merge(Ring& ring, const Ring& other) const;
+  void link(const std::vector<Triangulator::Triangle>& triangles);
+  bool merge(std::uint32_t corner);
+  Ring grown(std::uint32_t triangle);
 
   Monitor monitor_;
   const MeshPoints& points_;
   Triangulator triangulator_;
   std::unordered_set<std::uint64_t> sides_;  // of the polygon at hand, from vertex to vertex
+  std::vector<Corner> corners_;              // of its triangles
+  std::vector<bool> taken_;                  // into a piece
+  std::vector<Candidate> candidates_;        // a heap, the first triangle on top
   std::size_t axis_ = 0;
   int sign_ = 1;
 };

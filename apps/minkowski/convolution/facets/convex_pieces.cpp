@@ -6,6 +6,7 @@
 #include "apps/minkowski/convolution/facets/convex_pieces.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "nef/base/error.h"
 #include "nef/mesh/edge_order.h"
@@ -115,20 +116,57 @@ ConvexPieces::Ring ConvexPieces::grown(std::uint32_t triangle) {
   return ring;
 }
 
+bool ConvexPieces::is_straight(std::span<const std::uint32_t> corners) const {
+  for (std::size_t i = 2; i < corners.size(); ++i) {
+    if (points_.orientation_along(corners[i - 2], corners[i - 1], corners[i], axis_, monitor_) != 0) return false;
+  }
+  return true;
+}
+
+// Appends a convex ring, or, if it has very many corners, pieces of it: one for the corners in each of many groups, and
+// what these leave, and so on. Corners on a side stay with the rest, so that each side ends where its neighbours' do.
+void ConvexPieces::append_small(Ring&& ring, std::vector<Ring>& pieces) const {
+  constexpr std::size_t kMostCorners = 96;
+  constexpr std::size_t kGroup = 32;
+  while (ring.size() > kMostCorners) {
+    std::vector<Ring> groups;
+    Ring rest;
+    for (std::size_t from = 0; from < ring.size(); from += kGroup) {
+      const std::size_t to = std::min(from + kGroup, ring.size());
+      Ring group(ring.begin() + static_cast<std::ptrdiff_t>(from), ring.begin() + static_cast<std::ptrdiff_t>(to));
+      group.push_back(ring[to % ring.size()]);
+      rest.push_back(group.front());
+      if (is_straight(group)) {
+        rest.insert(rest.end(), group.begin() + 1, group.end() - 1);
+      } else {
+        groups.push_back(std::move(group));
+      }
+    }
+    // With three groups that turn, none of them goes back to the line on which it began, and the rest is a polygon.
+    if (groups.size() < 3) break;
+    std::move(groups.begin(), groups.end(), std::back_inserter(pieces));
+    ring = std::move(rest);
+  }
+  pieces.push_back(std::move(ring));
+}
+
 std::vector<std::vector<std::uint32_t>> ConvexPieces::cut(const std::vector<Ring>& rings,
                                                           const ProjectionAxis& projection) {
   axis_ = projection.axis;
   sign_ = projection.sign;
-  if (rings.size() == 1 && is_convex(rings[0])) return rings;
+  std::vector<Ring> pieces;
+  if (rings.size() == 1 && is_convex(rings[0])) {
+    append_small(Ring(rings[0]), pieces);
+    return pieces;
+  }
   find_slits(rings);
   std::vector<Triangulator::Triangle> triangles;
   const bool done = triangulator_.triangulate(rings, axis_, sign_, triangles);
   NEF_ASSERT(done);
   link(triangles);
   taken_.assign(triangles.size(), false);
-  std::vector<Ring> pieces;
   for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    if (!taken_[t]) pieces.push_back(grown(t));
+    if (!taken_[t]) append_small(grown(t), pieces);
   }
   return pieces;
 }

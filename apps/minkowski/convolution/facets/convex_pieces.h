@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <unordered_set>
 #include <vector>
 
@@ -19,7 +20,9 @@ class ConvexPieces {
 
   /// Cuts a polygon, given by its rings as Triangulator takes them, into pieces that are turned like it. Triangles of a
   /// triangulation are merged as long as what comes of it is convex [Hertel, Mehlhorn 1983], but not across sides that
-  /// rings walk both ways: at most four times as many as there must be. O(n log n), O(n) for a convex polygon.
+  /// rings walk both ways: at most four times as many as there must be. A piece of very many corners, which would be
+  /// asked one by one whatever comes near the piece, is cut into some of about 32. O(n log n), O(n) for a convex
+  /// polygon.
   std::vector<std::vector<std::uint32_t>> cut(const std::vector<std::vector<std::uint32_t>>& rings,
                                               const ProjectionAxis& projection);
 
@@ -47,6 +50,8 @@ class ConvexPieces {
   void link(const std::vector<Triangulator::Triangle>& triangles);
   bool merge(std::uint32_t corner);
   Ring grown(std::uint32_t triangle);
+  [[nodiscard]] bool is_straight(std::span<const std::uint32_t> corners) const;
+  void append_small(Ring&& ring, std::vector<Ring>& pieces) const;
 
   Monitor monitor_;
   const MeshPoints& points_;

@@ -21,6 +21,8 @@ Complex constant(LabelId mark) {
 }  // namespace
 
 struct Polyhedron::Body {
+  explicit Body(Complex&& from) : complex(std::move(from)) {}
+
   Complex complex;
   // Built when first asked for; call_once makes that safe for readers in several threads.
   mutable std::once_flag once;
@@ -29,7 +31,7 @@ struct Polyhedron::Body {
   // The empty set has none, so that making one, or moving from a set, costs nothing.
   static const Body& of(const std::shared_ptr<const Body>& body) {
     if (body) return *body;
-    static const Body empty{constant(0), {}, {}};
+    static const Body empty(constant(0));
     return empty;
   }
 };
@@ -38,11 +40,7 @@ Polyhedron::Polyhedron() = default;
 
 Polyhedron Polyhedron::everything() { return Polyhedron(constant(1)); }
 
-Polyhedron::Polyhedron(Complex&& complex) {
-  auto body = std::make_shared<Body>();
-  body->complex = std::move(complex);
-  body_ = std::move(body);
-}
+Polyhedron::Polyhedron(Complex&& complex) : body_(std::make_shared<Body>(std::move(complex))) {}
 
 Complex Polyhedron::take_complex() && {
   const std::shared_ptr<const Body> body = std::exchange(body_, nullptr);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// nef_bench_manifold CASE_DIRECTORY [REPEAT]: the Manifold library (doubles, not exact) on one case. It takes solids of
-// triangles only; the polygons of our cases are convex and become fans.
+// nef_bench_manifold CASE_DIRECTORY [REPEAT]: the Manifold library (doubles, not exact) on one case.
 #include <manifold/manifold.h>
 
 #include <fstream>
@@ -9,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/manifold/read_off.h"
 #include "bench/report.h"
 
 namespace nef::bench {
@@ -16,35 +16,6 @@ namespace {
 
 using manifold::Manifold;
 using manifold::MeshGL64;
-
-double number(const std::string& word) {
-  const std::size_t slash = word.find('/');
-  const double value = std::stod(word);
-  return slash == std::string::npos ? value : value / std::stod(word.substr(slash + 1));
-}
-
-MeshGL64 read_off(const std::string& path) {
-  std::ifstream in(path);
-  std::string word;
-  std::size_t vertices = 0;
-  std::size_t faces = 0;
-  std::size_t edges = 0;
-  if (!(in >> word >> vertices >> faces >> edges) || word != "OFF") throw std::runtime_error(path + ": not OFF");
-  MeshGL64 mesh;
-  mesh.numProp = 3;
-  for (std::size_t i = 0; i < 3 * vertices && in >> word; ++i) mesh.vertProperties.push_back(number(word));
-  for (std::size_t f = 0; f < faces; ++f) {
-    std::size_t count = 0;
-    in >> count;
-    std::vector<std::size_t> face(count);
-    for (std::size_t& corner : face) in >> corner;
-    for (std::size_t i = 2; i < count; ++i) {
-      for (const std::size_t corner : {face[0], face[i - 1], face[i]}) mesh.triVerts.push_back(corner);
-    }
-  }
-  if (!in) throw std::runtime_error(path + ": ends too early");
-  return mesh;
-}
 
 Manifold evaluated(const Manifold& lazy) {
   if (lazy.Status() != Manifold::Error::NoError) throw std::runtime_error("Manifold refuses it");

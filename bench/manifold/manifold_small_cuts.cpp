@@ -3,14 +3,13 @@
 // nef_bench_manifold_small_cuts CASE_DIRECTORY: what nef_bench_small_cuts does, by the Manifold library.
 #include <manifold/manifold.h>
 
-#include <array>
 #include <cstddef>
 #include <cstdio>
 #include <exception>
-#include <fstream>
 #include <stdexcept>
 #include <string>
 
+#include "bench/manifold/read_off.h"
 #include "bench/report.h"
 #include "bench/tiles/small_cubes.h"
 
@@ -19,29 +18,6 @@ namespace {
 
 using manifold::Manifold;
 using manifold::MeshGL64;
-
-// Of triangles.
-MeshGL64 read_off(const std::string& path) {
-  std::ifstream in(path);
-  std::string word;
-  std::size_t vertices = 0;
-  std::size_t faces = 0;
-  std::size_t edges = 0;
-  in >> word >> vertices >> faces >> edges;
-  MeshGL64 mesh;
-  mesh.numProp = 3;
-  mesh.vertProperties.resize(3 * vertices);
-  for (double& x : mesh.vertProperties) in >> x;
-  for (std::size_t f = 0; f < faces; ++f) {
-    std::size_t count = 0;
-    std::array<std::size_t, 3> face{};
-    in >> count >> face[0] >> face[1] >> face[2];
-    if (count != 3) throw std::runtime_error(path + ": not of triangles");
-    mesh.triVerts.insert(mesh.triVerts.end(), face.begin(), face.end());
-  }
-  if (!in) throw std::runtime_error(path + ": ends too early");
-  return mesh;
-}
 
 void run(const std::string& directory) {
   const MeshGL64 mesh = read_off(directory + "/0.off");

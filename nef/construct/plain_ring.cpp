@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/construct/plain_ring.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -8,18 +9,10 @@
 
 namespace nef {
 
-namespace {
-
-constexpr std::size_t kMost = 20;  // edges whose bits fit into a word
-
-}  // namespace
-
 bool PlainRing::read(std::uint32_t point, std::span<const FaceCorner> corners) {
   if (corners.size() < 3 || corners.size() > kMost || !order(corners)) return false;
-  const std::size_t n = ring_.size();
-  planes_.clear();
-  edges_.clear();
-  for (const FaceCorner& corner : ring_) planes_.push_back(faces_.plane[corner.face]);
+  const std::size_t n = size_;
+  for (std::size_t i = 0; i < n; ++i) planes_[i] = faces_.plane[ring_[i].face];
   bits_ = 1;  // ends the bits of any number of edges
   for (std::size_t i = 0; i < n; ++i) {
     PlaneId first = planes_[i == 0 ? n - 1 : i - 1];
@@ -31,7 +24,7 @@ bool PlainRing::read(std::uint32_t point, std::span<const FaceCorner> corners) {
     const std::optional<int> sign = direction(point, ring_[i].next, first, second);
     if (!sign) return false;
     const PlaneId unflipped{second.row() << 1U};
-    edges_.push_back({PlaneId{first.row() << 1U}, *sign > 0 ? unflipped : unflipped.opposite()});
+    edges_[i] = {PlaneId{first.row() << 1U}, *sign > 0 ? unflipped : unflipped.opposite()};
     bits_ = bits_ << 3U | (swapped ? 4U : 0U) | (turned ? 2U : 0U) | (*sign > 0 ? 1U : 0U);
   }
   return true;
@@ -39,9 +32,13 @@ bool PlainRing::read(std::uint32_t point, std::span<const FaceCorner> corners) {
 
 // Svertex i leads along the edge of corner i, shalfedge 2 i is the half of that corner's arc that leaves it.
 bool PlainRing::write(const SolidMarks& marks, SphereMapBuffer& map) const {
-  const auto n = static_cast<std::uint32_t>(ring_.size());
+  const auto n = static_cast<std::uint32_t>(size_);
   const auto mark_of = [&](std::uint32_t i) { return planes_[i].flipped() ? marks.flipped_boundary : marks.boundary; };
   map.clear();
+  map.svertices.reserve(n);
+  map.shalfedges.reserve(2 * n);
+  map.sfaces.reserve(2);
+  map.entries.reserve(2);
   map.mark = mark_of(0);
   for (std::uint32_t i = 0; i < n; ++i) {
     const std::uint32_t ahead = i + 1 == n ? 0 : i + 1;
@@ -66,20 +63,41 @@ bool PlainRing::write(const SolidMarks& marks, SphereMapBuffer& map) const {
 
 // From each corner on to the one that leaves along the edge where it arrives. False if this is not one way through all.
 bool PlainRing::order(std::span<const FaceCorner> corners) {
-  ring_.assign(corners.begin(), corners.end());
-  for (std::size_t i = 1; i < ring_.size(); ++i) {
+  size_ = corners.size();
+  std::copy(corners.begin(), corners.end(), ring_.begin());
+  for (std::size_t i = 1; i < size_; ++i) {
     std::size_t j = i;
-    while (j < ring_.size() && ring_[j].next != ring_[i - 1].previous) ++j;
-    if (j == ring_.size()) return false;
+    while (j < size_ && ring_[j].next != ring_[i - 1].previous) ++j;
+    if (j == size_) return false;
     std::swap(ring_[i], ring_[j]);
   }
-  if (ring_.back().previous != ring_.front().next) return false;
-  for (std::size_t i = 0; i < ring_.size(); ++i) {
+  if (ring_[size_ - 1].previous != ring_[0].next) return false;
+  for (std::size_t i = 0; i < size_; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (ring_[i].next == ring_[j].next) return false;
     }
   }
   return true;
+}
+
+void PlainRing::learn(VertexId vertex) {
+  if (2 * (known_count_ + 1) > known_.size()) {
+    constexpr std::size_t kFirst = 32;
+    const std::vector<Known> before = std::exchange(known_, std::vector<Known>(std::max(kFirst, 2 * known_.size())));
+    for (const Known& known : before) {
+      if (known.bits != 0) known_[place_of(known.bits)] = known;
+    }
+  }
+  known_[place_of(bits_)] = {bits_, vertex};
+  ++known_count_;
+}
+
+// Where these bits are, or would be.
+std::size_t PlainRing::place_of(std::uint64_t bits) const {
+  const std::size_t last = known_.size() - 1;
+  std::size_t place = (bits * 0x9e3779b97f4a7c15ULL) >> 32U & last;
+  while (known_[place].bits != 0 && known_[place].bits != bits) place = (place + 1) & last;
+  return place;
 }
 
 // The sign of (first normal x second normal).(to - from) for the unflipped planes; nothing if doubles can not tell.

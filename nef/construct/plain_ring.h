@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "nef/construct/solid.h"
@@ -33,22 +34,19 @@ class PlainRing {
   [[nodiscard]] bool read(std::uint32_t point, std::span<const FaceCorner> corners);
 
   /// The corners of the vertex that was read, in the order of the ring.
-  [[nodiscard]] std::span<const FaceCorner> corners() const { return ring_; }
+  [[nodiscard]] std::span<const FaceCorner> corners() const { return std::span(ring_).first(size_); }
 
   /// The planes of the corners of the vertex that was read, in the order of the ring.
-  [[nodiscard]] std::span<const PlaneId> planes() const { return planes_; }
+  [[nodiscard]] std::span<const PlaneId> planes() const { return std::span(planes_).first(size_); }
 
   /// The sphere map of the vertex that was read, as drawing it would make it; false if the marks hide a part of it.
   [[nodiscard]] bool write(const SolidMarks& marks, SphereMapBuffer& map) const;
 
   /// A vertex that was learned with the same bits, if there is one.
-  [[nodiscard]] VertexId like() const {
-    const auto known = known_.find(bits_);
-    return known == known_.end() ? VertexId() : known->second;
-  }
+  [[nodiscard]] VertexId like() const { return known_.empty() ? VertexId() : known_[place_of(bits_)].vertex; }
 
   /// The vertex that was read has become this one of the complex.
-  void learn(VertexId vertex) { known_.emplace(bits_, vertex); }
+  void learn(VertexId vertex);
 
  private:
   // Unflipped planes whose normals have the direction of an edge for their product, or the second one flipped.
@@ -56,15 +54,27 @@ class PlainRing {
     PlaneId p, q;
   };
 
+  // A vertex that was learned.
+  struct Known {
+    std::uint64_t bits = 0;  // never 0 of a vertex
+    VertexId vertex;
+  };
+
+  static constexpr std::size_t kMost = 20;  // edges whose bits fit into a word
+
   bool order(std::span<const FaceCorner> corners);
+  [[nodiscard]] std::size_t place_of(std::uint64_t bits) const;
   [[nodiscard]] std::optional<int> direction(std::uint32_t from, std::uint32_t to, PlaneId first, PlaneId second) const;
 
   const SolidFaces& faces_;
-  std::vector<FaceCorner> ring_;
-  std::vector<PlaneId> planes_;
-  std::vector<EdgePlanes> edges_;  // to the next points of the ring
+  // Of the vertex that was read, which has size_ edges.
+  std::array<FaceCorner, kMost> ring_{};
+  std::array<PlaneId, kMost> planes_;
+  std::array<EdgePlanes, kMost> edges_;  // to the next points of the ring
+  std::size_t size_ = 0;
   std::uint64_t bits_ = 0;
-  std::unordered_map<std::uint64_t, VertexId> known_;
+  std::vector<Known> known_;  // open addressing, at most half full
+  std::size_t known_count_ = 0;
 };
 
 }  // namespace nef

@@ -153,17 +153,21 @@ namespace {
 std::vector<std::uint32_t> rows_of_common_hash(std::span<const std::uint32_t> hashes) {
   constexpr std::size_t kBits = 32;  // a row: one of so many is taken for another one's
   const std::size_t count = std::bit_ceil(kBits * (hashes.size() + 2));
-  std::vector<std::uint64_t> once(count / 64);
-  std::vector<std::uint64_t> twice(count / 64);
-  const auto word = [count](std::uint32_t hash) { return (hash & (count - 1)) / 64; };
+  struct Bits {
+    std::uint64_t once = 0;
+    std::uint64_t twice = 0;
+  };
+  std::vector<Bits> bits(count / 64);
+  const auto word = [&bits, count](std::uint32_t hash) -> Bits& { return bits[(hash & (count - 1)) / 64]; };
   const auto bit = [](std::uint32_t hash) { return std::uint64_t{1} << (hash % 64); };
   for (const std::uint32_t hash : hashes) {
-    twice[word(hash)] |= once[word(hash)] & bit(hash);
-    once[word(hash)] |= bit(hash);
+    Bits& at = word(hash);
+    at.twice |= at.once & bit(hash);
+    at.once |= bit(hash);
   }
   std::vector<std::uint32_t> result;
   for (std::uint32_t row = 0; row < hashes.size(); ++row) {
-    if ((twice[word(hashes[row])] & bit(hashes[row])) != 0) result.push_back(row);
+    if ((word(hashes[row]).twice & bit(hashes[row])) != 0) result.push_back(row);
   }
   return result;
 }
@@ -176,6 +180,7 @@ std::vector<std::uint32_t> PlaneTable::merge_equal() {
   std::vector<std::uint32_t> hashes(count);
   for (std::uint32_t row = 0; row < count; ++row) hashes[row] = RowSlots::hash_of(rows_, row);
   const std::vector<std::uint32_t> candidates = rows_of_common_hash(hashes);
+  if (candidates.empty()) return {};
   RowSlots slots;
   slots.reserve(candidates.size());
   std::vector<std::uint32_t> first_equal;  // of each candidate

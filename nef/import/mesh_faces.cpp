@@ -132,8 +132,9 @@ PointId MeshFaces::push_small_point(const std::array<std::int64_t, 3>& x) {
 void MeshFaces::add_face(std::uint32_t face) {
   if (surface_.defects[face] == FaceDefect::kNoArea) return;
   NEF_ASSERT(surface_.defects[face] == FaceDefect::kNone);
-  ring_.clear();
-  for (const std::uint32_t v : mesh_.face(face)) ring_.push_back(point_of_[surface_.place[v]]);
+  const std::span<const std::uint32_t> corners = mesh_.face(face);
+  ring_.resize(corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) ring_[i] = point_of_[surface_.place[corners[i]]];
   if (reverse_) std::reverse(ring_.begin(), ring_.end());
   if (ring_.size() == 3 && !surface_.irregular[face]) {
     const PlaneId plane = plane_of_triangle(ring_);

@@ -206,9 +206,9 @@ bool MeshPoints::make_integers(std::span<const Rational3> points) {
   for (const Rational3& point : points) {
     for (const Rational& x : point) {
       const mpz_srcptr den = x.get_den_mpz_t();
-      if (mpz_cmp_ui(den, kIntegerLimit) >= 0) return false;
-      const auto d = static_cast<std::int64_t>(mpz_get_ui(den));
-      if (denominator % d == 0) continue;
+      if (mpz_size(den) != 1 || mpz_getlimbn(den, 0) >= static_cast<mp_limb_t>(kIntegerLimit)) return false;
+      const auto d = static_cast<std::int64_t>(mpz_getlimbn(den, 0));
+      if (d == 1 || d == denominator || denominator % d == 0) continue;
       const Int128 common = static_cast<Int128>(denominator / std::gcd(denominator, d)) * d;
       if (common >= kIntegerLimit) return false;
       denominator = static_cast<std::int64_t>(common);
@@ -217,13 +217,15 @@ bool MeshPoints::make_integers(std::span<const Rational3> points) {
   for (const Rational3& point : points) {
     std::array<double, 3>& to = own_.emplace_back();
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const Rational& x = point[axis];
-      bool fits = mpz_fits_slong_p(x.get_num_mpz_t()) != 0;
+      const mpz_srcptr num = point[axis].get_num_mpz_t();
+      const auto den = static_cast<std::int64_t>(mpz_getlimbn(point[axis].get_den_mpz_t(), 0));
+      bool fits = mpz_size(num) <= 1;
       if (fits) {
-        const Int128 scaled = static_cast<Int128>(mpz_get_si(x.get_num_mpz_t())) *
-                              (denominator / static_cast<std::int64_t>(mpz_get_ui(x.get_den_mpz_t())));
-        fits = scaled < kIntegerLimit && scaled > -kIntegerLimit;
-        to[axis] = static_cast<double>(static_cast<std::int64_t>(scaled));
+        const Unsigned128 scaled = static_cast<Unsigned128>(mpz_getlimbn(num, 0)) *
+                                   static_cast<std::uint64_t>(den == denominator ? 1 : denominator / den);
+        fits = scaled < static_cast<Unsigned128>(kIntegerLimit);
+        const auto size = static_cast<double>(static_cast<std::int64_t>(scaled));
+        to[axis] = mpz_sgn(num) < 0 ? -size : size;
       }
       if (!fits) {
         own_.clear();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/mesh/vertex_merger.h"
 
+#include <algorithm>
 #include <bit>
 
 namespace nef {
@@ -64,8 +65,7 @@ struct Slot {
 // The first of those that equal each of `count` things.
 template <typename HashOf, typename Equal>
 std::vector<std::uint32_t> first_equal(std::size_t count, const HashOf& hash_of, const Equal& equal) {
-  std::size_t size = 64;
-  while (size < 2 * count) size *= 2;
+  const std::size_t size = std::bit_ceil(std::max<std::size_t>(2 * count, 2));
   std::vector<Slot> slots(size);
   std::vector<std::uint32_t> first(count);
   for (std::uint32_t i = 0; i < count; ++i) {

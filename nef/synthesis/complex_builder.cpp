@@ -297,12 +297,12 @@ void ComplexBuilder::drop_idle_planes() {
   Complex& c = complex_;
   std::vector<std::uint8_t> used(planes_.size(), 0);
   for_each_plane_of(c, [&used](PlaneId plane) { used[plane.row()] = 1; });
+  if (std::find(used.begin(), used.end(), 0) == used.end()) return;
   std::vector<std::uint32_t> row(used.size(), kNone);
   std::uint32_t count = 0;
   for (std::uint32_t i = 0; i < used.size(); ++i) {
     if (used[i] != 0) row[i] = count++;
   }
-  if (count == used.size()) return;
   for_each_plane_of(c, [&row](PlaneId& plane) { rename(plane, row); });
   planes_.keep(used);
 }
@@ -338,10 +338,10 @@ namespace {
 
 template <typename Finish>
 std::variant<Complex, Defect> complex_or_defect(Finish&& finish) {
-  std::optional<Complex> complex;
-  std::optional<Defect> defect = detail::defect_in([&] { complex.emplace(finish()); });
-  if (defect) return std::move(*defect);
-  return std::move(*complex);
+  std::variant<Complex, Defect> made(std::in_place_type<Defect>);
+  std::optional<Defect> defect = detail::defect_in([&] { made.emplace<Complex>(finish()); });
+  if (defect) made = std::move(*defect);
+  return made;
 }
 
 }  // namespace

@@ -268,13 +268,15 @@ class VolumeLinker {
     }
     std::vector<bool> is_inner(count, false);
     for (const std::uint32_t root : inner_) is_inner[root] = true;
-    std::stable_sort(roots.begin(), roots.end(), [&](std::uint32_t a, std::uint32_t b) {
+    std::sort(roots.begin(), roots.end(), [&](std::uint32_t a, std::uint32_t b) {
       const VolumeId va = volume_number[volumes_.find(a)];
       const VolumeId vb = volume_number[volumes_.find(b)];
-      return va != vb ? va < vb : is_inner[a] < is_inner[b];
+      if (va != vb) return va < vb;
+      return is_inner[a] != is_inner[b] ? is_inner[b] : a < b;
     });
     c_.volumes.assign(next.index(), {});
     c_.shells.clear();
+    c_.shells.reserve(roots.size());
     for (const std::uint32_t root : roots) {
       const VolumeId number = volume_number[volumes_.find(root)];
       Volume& volume = c_.volumes[number];

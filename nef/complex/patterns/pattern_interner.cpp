@@ -93,6 +93,8 @@ PatternId PatternInterner::intern(PatternTable& table, const SphereMapView& map,
   sorted_.clear();
   scratch_.clear();
   scratch_.mark = map.mark;
+  scratch_.shalfedges.reserve(map.shalfedges.size());
+  scratch_.svertices.reserve(map.svertices.size());
   for (std::uint32_t e = 0; e < map.shalfedges.size(); ++e) {
     SHalfedge half = map.shalfedges[e];
     if (e % 2 == 0) of_pairs.push_back(half.plane);
@@ -162,6 +164,7 @@ void PatternInterner::insert(std::uint64_t hash, PatternId id) {
   };
   if (2 * hashes_.size() <= slots_.size()) return put(id.index());
   slots_.assign(std::max<std::size_t>(64, 2 * slots_.size()), kNone);
+  hashes_.reserve(slots_.size() / 2);
   for (std::uint32_t i = 0; i < hashes_.size(); ++i) put(i);
 }
 

@@ -27,8 +27,10 @@ std::array<std::size_t, 3> projection_axes(const MeshPoints& points, const std::
     }
   }
   std::array<std::size_t, 3> order{0, 1, 2};
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t i, std::size_t j) { return std::abs(area[i]) > std::abs(area[j]); });
+  const auto swap_unless_larger = [&](std::size_t i) {
+    if (std::abs(area[order[i]]) < std::abs(area[order[i + 1]])) std::swap(order[i], order[i + 1]);
+  };
+  for (const std::size_t i : {0, 1, 0}) swap_unless_larger(i);
   return order;
 }
 
@@ -152,9 +154,9 @@ bool Triangulator::triangulate(std::span<const std::uint32_t> ring, std::size_t 
 // Cuts off every second corner, round after round, as EarClipper does where nothing is in the way.
 void Triangulator::cut_convex(std::span<const std::uint32_t> ring, std::vector<Triangle>& out) {
   // A queue, whose first corner is the one before that which is cut off.
-  queue_.assign({ring.back()});
-  queue_.insert(queue_.end(), ring.begin(), ring.end() - 1);
   queue_.resize(2 * ring.size());
+  queue_[0] = ring.back();
+  std::copy(ring.begin(), ring.end() - 1, queue_.begin() + 1);
   std::size_t first = 0;
   for (std::size_t last = ring.size(); last < 2 * ring.size() - 2; ++last) {
     out.push_back({queue_[first], queue_[first + 1], queue_[first + 2]});

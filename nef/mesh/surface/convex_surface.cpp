@@ -41,11 +41,12 @@ bool is_below(const MeshSurface& surface, std::uint32_t face, std::uint32_t vert
 class Groups {
  public:
   // `group_of` gives the group of each item; there are `count` groups.
-  Groups(std::span<const std::uint32_t> group_of, std::size_t count) : begin_(count + 1, 0), items_(group_of.size()) {
-    for (const std::uint32_t group : group_of) ++begin_[group + 1];
-    for (std::size_t g = 1; g < begin_.size(); ++g) begin_[g] += begin_[g - 1];
-    std::vector<std::uint32_t> at(begin_.begin(), begin_.end() - 1);
-    for (std::uint32_t i = 0; i < group_of.size(); ++i) items_[at[group_of[i]]++] = i;
+  Groups(std::span<const std::uint32_t> group_of, std::size_t count) : begin_(count + 2, 0), items_(group_of.size()) {
+    for (const std::uint32_t group : group_of) ++begin_[group + 2];
+    for (std::size_t g = 2; g < begin_.size(); ++g) begin_[g] += begin_[g - 1];
+    // A group begins one place too late, until all items of the one before are there.
+    for (std::uint32_t i = 0; i < group_of.size(); ++i) items_[begin_[group_of[i] + 1]++] = i;
+    begin_.pop_back();
   }
 
   [[nodiscard]] std::size_t count() const { return begin_.size() - 1; }

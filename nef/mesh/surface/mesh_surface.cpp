@@ -104,6 +104,15 @@ Triangulator::Cut cut_bent(const MeshPoints& points, Triangulator& triangulator,
   return done;
 }
 
+// Of all faces that are no triangles.
+std::size_t corners_of_polygons(const Mesh& mesh) {
+  std::size_t count = 0;
+  for (std::size_t f = 0; f < mesh.face_count(); ++f) {
+    if (const std::size_t size = mesh.face(f).size(); size > 3) count += size;
+  }
+  return count;
+}
+
 }  // namespace
 
 MeshSurface::MeshSurface(const Mesh& mesh, const Monitor& monitor)
@@ -114,7 +123,9 @@ MeshSurface::MeshSurface(const Mesh& mesh, MeshPoints at, const Monitor& monitor
       place(points.are_ordered_by_doubles() ? merge_equal(points.approximate()) : merge_equal(mesh.vertices)),
       defects(mesh.face_count(), FaceDefect::kNone) {
   Triangulator triangulator(points, monitor);
+  constexpr std::size_t kFewCorners = 16;
   std::vector<std::uint32_t> ring;
+  ring.reserve(kFewCorners);
   // A ring of n corners becomes n - 2 triangles.
   const std::size_t count = mesh.corners.size() - std::min(mesh.corners.size(), 2 * mesh.face_count());
   triangles.reserve(count);
@@ -124,6 +135,8 @@ MeshSurface::MeshSurface(const Mesh& mesh, MeshPoints at, const Monitor& monitor
   planar.reserve(mesh.face_count());
   irregular.reserve(mesh.face_count());
   ring_begin.reserve(mesh.face_count() + 1);
+  triangle_begin.push_back(0);
+  ring_begin.push_back(0);
   for (std::uint32_t f = 0; f < mesh.face_count(); ++f) {
     ring.clear();
     bool bad = false;
@@ -164,6 +177,7 @@ MeshSurface::MeshSurface(const Mesh& mesh, MeshPoints at, const Monitor& monitor
     }
     planar.push_back(is_flat);
     if (defects[f] == FaceDefect::kNone && planar[f] && !irregular[f] && ring.size() > 3) {
+      if (rings.empty()) rings.reserve(corners_of_polygons(mesh));
       rings.insert(rings.end(), ring.begin(), ring.end());
     }
     ring_begin.push_back(static_cast<std::uint32_t>(rings.size()));

@@ -29,13 +29,13 @@ struct MeshSurface {
   std::vector<std::uint32_t> place;                     ///< of each vertex: the smallest vertex at the same point
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of places; none is degenerate
   std::vector<std::uint32_t> face_of;                   ///< of each triangle
-  std::vector<std::uint32_t> triangle_begin{0};         ///< of each face, and the end
+  std::vector<std::uint32_t> triangle_begin;            ///< of each face, and the end
   std::vector<std::uint32_t> pieces;                    ///< of each triangle: equal where a convex face was cut
   std::vector<FaceDefect> defects;                      ///< of each face
   std::vector<bool> planar;                             ///< of each face: all corners lie in one plane, or on a line
   std::vector<bool> irregular;                          ///< of each face: it names a vertex twice
   std::vector<std::uint32_t> rings;  ///< corners of the planar faces that were cut, as places; none of irregular ones
-  std::vector<std::uint32_t> ring_begin{0};  ///< of each face in `rings`, and the end
+  std::vector<std::uint32_t> ring_begin;  ///< of each face in `rings`, and the end
 
   /// The corners of a triangle as its face names them, instead of the smallest vertices at their points.
   [[nodiscard]] std::array<std::uint32_t, 3> corners_in_face(const Mesh& mesh, std::uint32_t triangle) const {

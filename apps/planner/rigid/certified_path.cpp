@@ -35,10 +35,11 @@ Scene with_robot_as_in_its_file(Scene scene, const Monitor& monitor) {
   return scene;
 }
 
-bool moves_freely(const MotionChecker& checker, const RigidPose& from, const RigidPose& to) {
+bool moves_freely(const MotionChecker& checker, const RigidPose& from, const RigidPose& to, const Monitor& monitor) {
   CheckLimits limits = CheckLimits::for_planners();
   limits.keep_pose = false;
-  return checker.check(RigidMotion(from, to, MotionTiming::kSlerp), limits).status == MotionVerdict::Status::kFree;
+  const MotionVerdict verdict = checker.check(RigidMotion(from, to, MotionTiming::kSlerp), limits, monitor);
+  return verdict.status == MotionVerdict::Status::kFree;
 }
 
 }  // namespace nef::planner

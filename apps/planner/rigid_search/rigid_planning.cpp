@@ -37,13 +37,17 @@ std::size_t pairs_of(const MotionChecker& checker) {
 class RigidPlanning {
  public:
   RigidPlanning(const Scene& scene, const MotionChecker& checker, const RigidLimits& limits, const Monitor& monitor)
-      : scene_(scene), question_(rigid_question_of(scene)), checker_(checker), limits_(limits), monitor_(monitor) {}
+      : scene_(scene),
+        question_(rigid_question_of(scene)),
+        checker_(checker),
+        limits_(limits),
+        monitor_(monitor),
+        unstopped_(Monitor().on_threads(monitor.threads())) {}
 
   RigidAnswer run() {
-    if (auto invalid = invalid_rigid_end(scene_, checker_, monitor_)) return *std::move(invalid);
-    if (is_answer({question_.start, question_.goal})) return std::move(answer_);
     try {
-      search();
+      if (auto invalid = invalid_rigid_end(scene_, checker_, monitor_)) return *std::move(invalid);
+      if (!is_answer({question_.start, question_.goal}, monitor_)) search();
     } catch (const Interrupted&) {
       count();
     }
@@ -60,7 +64,7 @@ class RigidPlanning {
       const RigidTurn turn = RigidTurn::of(checker_, size);
       samples = std::min(samples + turn.samples, limits_.max_samples);
       if (const auto path = trees_->run(samples, monitor_)) {
-        if (is_answer(*path)) return;
+        if (is_answer(*path, unstopped_)) return;
       }
       count();
       if (size == 1 && is_light(checker_) && search_proof(std::min(kFewBoxes, limits_.max_boxes))) return;
@@ -103,7 +107,7 @@ class RigidPlanning {
     if (slices > 0) {
       if (slices_ == nullptr) slices_ = std::make_unique<SliceSearch>(scene_, question_, checker_, monitor_);
       const auto path = slices_->run(slices, monitor_);
-      if (path && is_answer(*path)) return true;
+      if (path && is_answer(*path, unstopped_)) return true;
       // A path that is not certified touches a surface, which slices allow at its border.
       if (path || slices_->slices() < slices) slices_are_done_ = true;
     }
@@ -112,11 +116,11 @@ class RigidPlanning {
   }
 
   // Takes a path for the answer if all its motions are certified; it is shortened first.
-  bool is_answer(std::vector<RigidPose> path) {
+  bool is_answer(std::vector<RigidPose> path, const Monitor& monitor) {
     if (path.size() > 2) path = shorten(checker_, std::move(path), monitor_);
     path.front() = question_.start;
     path.back() = question_.goal;
-    CertifiedPath certified = certify(checker_, path);
+    CertifiedPath certified = certify(checker_, path, MotionTiming::kSlerp, {}, monitor);
     if (certified.status != MotionVerdict::Status::kFree) return false;
     answer_.status = RigidAnswer::Status::kPath;
     answer_.in_question = {};
@@ -136,6 +140,7 @@ class RigidPlanning {
   const MotionChecker& checker_;
   RigidLimits limits_;
   const Monitor& monitor_;
+  Monitor unstopped_;  // a path that was found in time is certified to the end
   std::optional<CertifiedTrees> trees_;
   std::unique_ptr<SliceSearch> slices_;
   std::unique_ptr<NoPathSearch> proofs_;
@@ -170,7 +175,7 @@ std::optional<RigidAnswer> invalid_rigid_end(const Scene& scene, const MotionChe
   const RigidQuestion question = rigid_question_of(scene);
   for (const auto& [pose, status] : {std::pair(&question.start, RigidAnswer::Status::kInvalidStart),
                                      std::pair(&question.goal, RigidAnswer::Status::kInvalidGoal)}) {
-    if (checker.check(*pose).status == MotionVerdict::Status::kFree) continue;
+    if (checker.check(*pose, {}, monitor).status == MotionVerdict::Status::kFree) continue;
     RigidAnswer answer;
     answer.collision = find_collision(scene, *pose, monitor);
     answer.status = status;

@@ -43,7 +43,7 @@ class TurningSearch {
         limits_(limits),
         monitor_(monitor),
         cells_(scene, question, monitor),
-        parallel_(turns_of_parallel_faces(scene, cells_.robot(), question)) {}
+        parallel_(turns_of_parallel_faces(scene, cells_.robot(), question, monitor)) {}
 
   TurningAnswer run() {
     try {

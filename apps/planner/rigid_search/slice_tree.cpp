@@ -236,10 +236,10 @@ std::vector<RigidPose> SliceTree::fitted(const Node& node, const Quaternion& rot
   for (std::size_t i = 0; i <= parts; ++i) poses.push_back({metric_.exact(positions[i]), rotations[i]});
   if (node.slice->component_at(poses.front().position) != node.component) return {};
   if (slice.component_at(poses.back().position) != component) return {};
-  for (std::size_t i = 0; i < parts; ++i) {
-    if (!moves_freely(checker_, poses[i], poses[i + 1], monitor)) return {};
-  }
-  return poses;
+  const std::size_t blocked = first_true(parts, monitor, [&](std::size_t i, const Monitor& own) {
+    return !moves_freely(checker_, poses[i], poses[i + 1], own);
+  });
+  return blocked == parts ? poses : std::vector<RigidPose>();
 }
 
 std::vector<SliceTree::NodeIndex> SliceTree::ancestry(NodeIndex node) const {

@@ -14,6 +14,7 @@
 #include "apps/planner/rigid_search/certified_trees.h"
 #include "apps/planner/rigid_search/shorten_poses.h"
 #include "apps/planner/rigid_search/slice_search.h"
+#include "apps/planner/rigid_search/slices.h"
 #include "nef/base/interruption.h"
 #include "nef/construct/construct.h"
 
@@ -26,13 +27,8 @@ constexpr std::size_t kMostTimes = 64;        // at most so often
 constexpr std::size_t kFirstSlices = 40;
 constexpr std::size_t kFewBoxes = 2500;  // before the first slices
 constexpr std::size_t kFirstBoxes = 20000;
-constexpr std::size_t kFewLeft = 160;      // as it is estimated where there is a proof: see NoPathAnswer::cells_left
-constexpr std::size_t kLongestTurn = 3;    // times as long as planned
-constexpr std::size_t kLightPairs = 2000;  // pairs of pieces; scenes with more get fewer slices
-
-std::size_t pairs_of(const MotionChecker& checker) {
-  return checker.robot().pieces().size() * checker.obstacles().pieces().size();
-}
+constexpr std::size_t kFewLeft = 160;    // as it is estimated where there is a proof: see NoPathAnswer::cells_left
+constexpr std::size_t kLongestTurn = 3;  // times as long as planned
 
 class RigidPlanning {
  public:
@@ -150,8 +146,6 @@ class RigidPlanning {
 };
 
 }  // namespace
-
-bool is_light(const MotionChecker& checker) { return pairs_of(checker) <= kLightPairs; }
 
 RigidTurn RigidTurn::of(const MotionChecker& checker, std::size_t size) {
   const std::size_t pairs = pairs_of(checker);

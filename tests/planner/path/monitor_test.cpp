@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
+#include <string>
 
 #include "apps/planner/assembly/disassembly.h"
 #include "apps/planner/free_space/free_positions.h"
@@ -103,6 +104,27 @@ TEST_CASE("a monitor stops each part of a search for poses") {
   const WeightedGraph graph{{{1}, {0, 2}, {1}}, {1, 1, 1}};
   CHECK_THROWS_AS(minimum_node_cut(graph, 0, 2, stopped), Interrupted);
   CHECK_FALSE(NoPathSearch(checker, question.start, question.goal, stopped).run(100).proof);
+}
+
+TEST_CASE("who watches is asked for each pair of pieces while the first box of a barrier is judged") {
+  constexpr int kBoxes = 64;
+  std::string obstacles;
+  for (int i = 0; i < kBoxes; ++i) {
+    const std::string at = std::to_string(3 * i);
+    obstacles += (i == 0 ? "\"box(" : ", \"box(") + at + ",2,0, " + at + "+1,3,1)\"";
+  }
+  const Scene scene = scene_of(R"J({"robot": "box(0,0,0, 1,1,1)", "rotation": "SO(3)", "obstacles": [)J" + obstacles +
+                               R"J(], "start": {"position": [0,0,0], "quaternion": [1,0,0,0]},
+      "goal": {"position": [0,9,0], "quaternion": [1,0,0,0]}})J");
+  const MotionChecker checker = MotionChecker::of_scene(scene);
+  const RigidQuestion question = rigid_question_of(scene);
+  int asked = 0;
+  const StopQuestion counting([&] {
+    ++asked;
+    return false;
+  });
+  NoPathSearch(checker, question.start, question.goal, counting.monitor()).run(1);
+  CHECK(asked > 2 * kBoxes / 8);  // a question asks every eighth time
 }
 
 TEST_CASE("a monitor stops the search for turns at which faces are parallel") {

@@ -40,6 +40,7 @@ class Monitor {
     if (stop != nullptr) {
       result.stop_ = stop;
       result.question_ = nullptr;
+      result.asks_ = false;
     }
     return result;
   }
@@ -65,7 +66,7 @@ class Monitor {
   /// The same for another thread, which neither tells nor asks, but is stopped with this one.
   [[nodiscard]] Monitor of_other_thread() const {
     Monitor result = quiet();
-    result.question_ = nullptr;
+    result.asks_ = false;
     return result;
   }
 
@@ -102,15 +103,18 @@ class Monitor {
  private:
   friend class StopQuestion;
 
+  [[nodiscard]] inline bool is_stopped() const;
+
   const std::atomic<bool>* stop_ = nullptr;
-  StopQuestion* question_ = nullptr;  // behind stop_, if the thread of this monitor is the one to ask it
+  StopQuestion* question_ = nullptr;  // whose flag stop_ is, if it is one's
+  bool asks_ = false;                 // the thread of this monitor is the one to ask the question
   const ProgressFunction* progress_ = nullptr;
   PredicateCounts* counts_ = nullptr;
   unsigned threads_ = 1;
 };
 
 /// A function that is asked now and then whether to stop, by the thread that put the question, and the flag that tells
-/// other threads what it said.
+/// all threads what it said.
 class StopQuestion {
  public:
   /// `stop` stops once it has said true; an empty one never does. What stops `outer` goes on doing so.
@@ -119,6 +123,7 @@ class StopQuestion {
     if (!stop_) return;
     monitor_.stop_ = &said_;
     monitor_.question_ = this;
+    monitor_.asks_ = true;
   }
   StopQuestion(const StopQuestion&) = delete;
   StopQuestion& operator=(const StopQuestion&) = delete;
@@ -126,14 +131,16 @@ class StopQuestion {
   /// The outer monitor, stopped by the question, too. The question must outlive what it watches.
   [[nodiscard]] const Monitor& monitor() const { return monitor_; }
 
+  /// Stops from now on, without asking. Any thread may call it. Nothing for an empty function.
+  void stop() { said_.store(true, std::memory_order_relaxed); }
+
  private:
   friend class Monitor;
 
   // Asks every few calls, as a look at a clock costs more than a flag.
   void ask() {
-    if (outer_.question_ != nullptr) outer_.question_->ask();
-    const bool outer_stops = outer_.stop_ != nullptr && outer_.stop_->load(std::memory_order_relaxed);
-    if (outer_stops || (++calls_ % 8 == 0 && stop_())) said_.store(true, std::memory_order_relaxed);
+    if (outer_.asks_) outer_.question_->ask();
+    if (++calls_ % 8 == 0 && stop_()) stop();
   }
 
   std::function<bool()> stop_;
@@ -143,10 +150,20 @@ class StopQuestion {
   unsigned calls_ = 0;
 };
 
+// By any of the flags, one question inside of another. Those of the outer ones are read, too, as the thread that asks
+// may be waiting for others.
+inline bool Monitor::is_stopped() const {
+  for (const Monitor* watched = this; watched->stop_ != nullptr; watched = &watched->question_->outer_) {
+    if (watched->stop_->load(std::memory_order_relaxed)) return true;
+    if (watched->question_ == nullptr) return false;
+  }
+  return false;
+}
+
 inline void Monitor::check_interruption() const {
   if (stop_ == nullptr) return;
-  if (question_ != nullptr) question_->ask();
-  if (stop_->load(std::memory_order_relaxed)) throw Interrupted();
+  if (asks_) question_->ask();
+  if (is_stopped()) throw Interrupted();
 }
 
 }  // namespace nef

@@ -100,7 +100,7 @@ json double_points_json(const std::vector<Rational3>& points) {
   return result;
 }
 
-int exit_code(AnswerStatus status) {
+int exit_code(AnswerStatus status, bool of_ompl) {
   switch (status) {
     case AnswerStatus::kInfeasible:
     case AnswerStatus::kBlocked:
@@ -109,7 +109,7 @@ int exit_code(AnswerStatus status) {
     case AnswerStatus::kInvalidGoal:
       return 3;
     case AnswerStatus::kUndecided:
-      return 5;
+      return of_ompl ? 4 : 5;
     default:
       return 0;
   }

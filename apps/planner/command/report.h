@@ -16,8 +16,8 @@
 namespace nef::planner {
 
 /// Exit code of the command: 0 path (or no question), 1 infeasible (or a given path is blocked), 3 invalid start or
-/// goal, 5 undecided.
-int exit_code(AnswerStatus status);
+/// goal, 5 undecided; 4 instead of that for a planner of OMPL.
+int exit_code(AnswerStatus status, bool of_ompl = false);
 
 /// What an answer is about, key `motions` of reports: translations at one orientation, turns about an axis, too, or all
 /// rigid motions.

@@ -101,6 +101,7 @@ class LinkageExamination {
                                   const std::vector<NodePair>& pairs, bool last) {
     return nodes_not_apart(cell, checker_.moving(two), checker_.still(two), pairs, last,
                            [&](std::uint32_t a, std::uint32_t b) {
+                             monitor_.check_interruption();
                              place(checker_.moving(two).pieces()[a], cell, rough_moving_);
                              place(checker_.still(two).pieces()[b], rough_still_);
                              return plane_between(rough_moving_, rough_still_) == Separation::kApart;

@@ -92,7 +92,7 @@ void BarrierGraph::link(Id a, Id b) {
   cells_[b].neighbours.push_back(a);
 }
 
-std::vector<BarrierGraph::Id> BarrierGraph::cheapest_barrier() {
+std::vector<BarrierGraph::Id> BarrierGraph::cheapest_barrier(const Monitor& monitor) {
   WeightedGraph graph;
   for (const BarrierCell& cell : cells_) {
     graph.weights.push_back(cell.weight);
@@ -106,7 +106,7 @@ std::vector<BarrierGraph::Id> BarrierGraph::cheapest_barrier() {
   const Id goal = cell_of(ends_[1]);
   if (cells_[start].state != State::kOpen || cells_[goal].state != State::kOpen) return {};
   NodeCut found{WeightedGraph::kUncuttable, {}};
-  if (start != goal) found = minimum_node_cut(graph, start, goal);
+  if (start != goal) found = minimum_node_cut(graph, start, goal, monitor);
   in_question_ = found.nodes;
   is_found_ = found.weight == 0;
   if (found.weight < WeightedGraph::kUncuttable) return found.nodes;

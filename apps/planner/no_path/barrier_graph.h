@@ -13,6 +13,7 @@
 #include "apps/planner/no_path/blocking_pairs.h"
 #include "apps/planner/no_path/minimum_cut.h"
 #include "apps/planner/proofs/path_proof.h"
+#include "nef/base/monitor.h"
 
 namespace nef::planner {
 
@@ -60,7 +61,7 @@ class BarrierGraph {
 
   /// The open cells of the cheapest barrier, which are in question; or start and goal, if all barriers go through what
   /// is hopeless. None if nothing is left to be done: if a barrier was found, or cannot be.
-  std::vector<Id> cheapest_barrier();
+  std::vector<Id> cheapest_barrier(const Monitor& monitor);
   /// Whether blocked cells separate start and goal, by the last call of cheapest_barrier.
   [[nodiscard]] bool is_found() const { return is_found_; }
   /// The cells of that barrier that are not known to be blocked.

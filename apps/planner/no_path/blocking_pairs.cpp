@@ -67,9 +67,10 @@ InnerPiece inner_piece(const RoughSolid& piece, const Matrices& matrices) {
 }  // namespace
 
 BlockingPairs::BlockingPairs(const PathProof::Claim& claim, const Orientations& orientations,
-                             const Rational3& reference)
+                             const Rational3& reference, const Monitor& monitor)
     : orientations_(orientations), reference_(to_vector(reference)) {
   for (const std::vector<Rational3>& piece : claim.robot) {
+    monitor.check_interruption();
     std::vector<Rational3> shifted;
     for (const Rational3& v : piece) shifted.push_back(minus(v, reference));
     robot_.push_back(rough_solid(shifted));
@@ -78,6 +79,7 @@ BlockingPairs::BlockingPairs(const PathProof::Claim& claim, const Orientations& 
   if (claim.box) box_ = {to_vector((*claim.box)[0]), to_vector((*claim.box)[1])};
   scale_ = reach_;
   for (const std::vector<Rational3>& piece : claim.obstacles) {
+    monitor.check_interruption();
     obstacles_.push_back(rough_solid(piece));
     scale_ = std::max(scale_, obstacles_.back().reach);
   }

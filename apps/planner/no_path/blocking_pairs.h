@@ -14,6 +14,7 @@
 #include "apps/planner/no_path/small_program.h"
 #include "apps/planner/orientation/orientation_cells.h"
 #include "apps/planner/proofs/path_proof.h"
+#include "nef/base/monitor.h"
 
 namespace nef::planner {
 
@@ -75,7 +76,8 @@ class BlockingPairs {
   using Pair = std::array<std::uint32_t, 2>;
 
   /// Pieces of the claim that are flat block nothing. `reference`: the point of the robot whose positions are meant.
-  BlockingPairs(const PathProof::Claim& claim, const Orientations& orientations, const Rational3& reference);
+  BlockingPairs(const PathProof::Claim& claim, const Orientations& orientations, const Rational3& reference,
+                const Monitor& monitor);
 
   /// All pairs of solid pieces.
   [[nodiscard]] std::vector<Pair> all() const;

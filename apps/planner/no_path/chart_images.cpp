@@ -32,9 +32,10 @@ Rational3 turned_by_half(const Rational3& v, std::uint32_t axis) {
 
 // For each piece the one onto which a half turn takes it; nothing if there is none for some.
 std::optional<std::vector<std::uint32_t>> pieces_after_half_turn(const std::vector<std::vector<Rational3>>& pieces,
-                                                                 std::uint32_t axis) {
+                                                                 std::uint32_t axis, const Monitor& monitor) {
   std::vector<std::uint32_t> result;
   for (const std::vector<Rational3>& piece : pieces) {
+    monitor.check_interruption();
     std::vector<Rational3> turned;
     for (const Rational3& v : piece) turned.push_back(turned_by_half(v, axis));
     std::sort(turned.begin(), turned.end());
@@ -48,7 +49,7 @@ std::optional<std::vector<std::uint32_t>> pieces_after_half_turn(const std::vect
 }  // namespace
 
 std::vector<std::optional<ChartImage>> images_of_charts(const PathProof::Claim& claim, const Orientations& orientations,
-                                                        const Rational3& reference) {
+                                                        const Rational3& reference, const Monitor& monitor) {
   std::vector<std::vector<Rational3>> pieces;  // seen from the reference point, sorted
   for (const std::vector<Rational3>& piece : claim.robot) {
     std::vector<Rational3>& seen = pieces.emplace_back();
@@ -58,7 +59,7 @@ std::vector<std::optional<ChartImage>> images_of_charts(const PathProof::Claim& 
   std::array<std::optional<std::vector<std::uint32_t>>, 3> half_turns;
   for (std::uint32_t axis = 0; axis < 3; ++axis) {
     const bool keeps_origin = turned_by_half(reference, axis) == reference;
-    if (keeps_origin || !claim.box) half_turns[axis] = pieces_after_half_turn(pieces, axis);
+    if (keeps_origin || !claim.box) half_turns[axis] = pieces_after_half_turn(pieces, axis, monitor);
   }
   std::vector<std::optional<ChartImage>> result(orientations.charts().size());
   for (std::uint32_t chart = 1; chart < result.size(); ++chart) {

@@ -29,7 +29,7 @@ struct ChartImage {
 /// turns count if they take the set of pieces of the claim's robot onto itself, and, if the claim has a box, the
 /// robot's origin, too. O(pieces^2 vertices log(vertices)).
 std::vector<std::optional<ChartImage>> images_of_charts(const PathProof::Claim& claim, const Orientations& orientations,
-                                                        const Rational3& reference);
+                                                        const Rational3& reference, const Monitor& monitor = {});
 
 /// The box of poses in a chart that a box in the chart of `image.of` becomes, with all that is below it.
 PathProof::PoseCell image_of(const PathProof::PoseCell& cell, const ChartImage& image, const Monitor& monitor = {});

@@ -36,11 +36,12 @@ class Flow {
     });
   }
 
-  NodeCut run() {
+  NodeCut run(const Monitor& monitor) {
     NodeCut result;
     while (find_levels()) {
       next_.assign(first_.begin(), first_.end() - 1);
       while (result.weight < WeightedGraph::kUncuttable) {
+        monitor.check_interruption();
         const std::int64_t sent = send();
         if (sent == 0) break;
         result.weight += sent;
@@ -112,8 +113,8 @@ class Flow {
 
 }  // namespace
 
-NodeCut minimum_node_cut(const WeightedGraph& graph, std::uint32_t from, std::uint32_t to) {
-  return Flow(graph, from, to).run();
+NodeCut minimum_node_cut(const WeightedGraph& graph, std::uint32_t from, std::uint32_t to, const Monitor& monitor) {
+  return Flow(graph, from, to).run(monitor);
 }
 
 }  // namespace nef::planner

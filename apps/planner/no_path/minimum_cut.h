@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "nef/base/monitor.h"
+
 namespace nef::planner {
 
 /// A graph by the neighbours of each node, in both directions, with a weight for each node.
@@ -22,7 +24,8 @@ struct NodeCut {
 };
 
 /// The nodes of least total weight without which no way leads from one node to another one, neither of which counts.
-/// A maximal flow by Dinic's algorithm: O(n^2 m) at worst, a few passes over the graph in practice.
-NodeCut minimum_node_cut(const WeightedGraph& graph, std::uint32_t from, std::uint32_t to);
+/// A maximal flow by Dinic's algorithm: O(n^2 m) at worst, a few passes over the graph in practice. `monitor` can stop
+/// it (Interrupted).
+NodeCut minimum_node_cut(const WeightedGraph& graph, std::uint32_t from, std::uint32_t to, const Monitor& monitor = {});
 
 }  // namespace nef::planner

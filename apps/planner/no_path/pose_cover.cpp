@@ -62,7 +62,7 @@ class PartCover {
   PartCover(const BlockingPairs& pairs, std::size_t dimension) : pairs_(pairs), dimension_(dimension) {}
 
   // The cell of the part becomes blocked, beyond or cut, unless a pose in it is open.
-  [[nodiscard]] JudgedPart judge(CoverPart part) const {
+  [[nodiscard]] JudgedPart judge(CoverPart part, const Monitor& monitor) const {
     JudgedPart result;
     PathProof::PoseCell& cell = *part.cell;
     if (part.robot == nullptr) part.robot = std::make_shared<const TurnedRobot>(pairs_.turned(part.orientation));
@@ -75,7 +75,7 @@ class PartCover {
     }
     const OrientationBox<double> turn = middle_of(part.orientation);
     const TurnedRobot middle = pairs_.turned(turn);
-    const auto deepest = deepest_pair(part, middle);
+    const auto deepest = deepest_pair(part, middle, monitor);
     const bool middle_is_beyond = pairs_.beyond(middle, {part.box.middle(), part.box.middle()}).first > 0;
     if (!deepest && !middle_is_beyond) {
       result.open = {part.box.middle(), turn};
@@ -83,6 +83,7 @@ class PartCover {
     }
     result.is_counted = true;
     for (const BlockingPairs::Pair& pair : part.candidates) {
+      monitor.check_interruption();
       cell.common = common_points(pairs_, pair, *part.robot, part.box.corners());
       if (cell.common.empty()) continue;
       cell.kind = Kind::kBlocked;
@@ -130,9 +131,11 @@ class PartCover {
 
  private:
   // The pair first that overlaps deepest in the middle of the part; the candidates in this order.
-  std::optional<BlockingPairs::Pair> deepest_pair(CoverPart& part, const TurnedRobot& middle) const {
+  std::optional<BlockingPairs::Pair> deepest_pair(CoverPart& part, const TurnedRobot& middle,
+                                                  const Monitor& monitor) const {
     std::vector<std::pair<double, BlockingPairs::Pair>> depths;
     for (const BlockingPairs::Pair& pair : part.candidates) {
+      monitor.check_interruption();
       depths.emplace_back(-pairs_.at(pair, middle, part.box.middle()).depth, pair);
     }
     std::sort(depths.begin(), depths.end());
@@ -246,7 +249,7 @@ class Covering {
       const std::vector<CoverPart> parts(std::make_move_iterator(first), std::make_move_iterator(waiting_.end()));
       waiting_.erase(first, waiting_.end());
       std::vector<JudgedPart> judged(count);
-      parallel_for(count, monitor, [&](std::size_t i, const Monitor&) { judged[i] = cover_.judge(parts[i]); });
+      parallel_for(count, monitor, [&](std::size_t i, const Monitor& own) { judged[i] = cover_.judge(parts[i], own); });
       for (std::size_t i = 0; i < count; ++i) {
         if (judged[i].is_counted) --budget;
         if (judged[i].open) {  // the last one comes first

@@ -26,8 +26,8 @@ PositionBarrier::PositionBarrier(const PathProof::Claim& claim, const Orientatio
                                  const Rational3& reference, const Monitor& monitor)
     : orientations_(orientations),
       reference_(reference),
-      images_(images_of_charts(claim, orientations, reference)),
-      pairs_(claim, orientations, reference),
+      images_(images_of_charts(claim, orientations, reference, monitor)),
+      pairs_(claim, orientations, reference, monitor),
       monitor_(monitor),
       graph_(claim, reference, pairs_.reach()) {
   add_samples();
@@ -55,21 +55,25 @@ void PositionBarrier::add_samples() {
   }
 }
 
-double PositionBarrier::depth(const BarrierCell& cell, const TurnedRobot& robot, const Vector3d& position) const {
+double PositionBarrier::depth(const BarrierCell& cell, const TurnedRobot& robot, const Vector3d& position,
+                              const Monitor& monitor) const {
   double most = pairs_.beyond(robot, {position, position}).first;
-  for (const BlockingPairs::Pair& pair : cell.pairs) most = std::max(most, pairs_.at(pair, robot, position).depth);
+  for (const BlockingPairs::Pair& pair : cell.pairs) {
+    monitor.check_interruption();
+    most = std::max(most, pairs_.at(pair, robot, position).depth);
+  }
   return most;
 }
 
 // About how many ranges of orientations it takes to show that a position is blocked at all of them; infinite if it is
 // free at one of the samples.
-double PositionBarrier::effort_at(const BarrierCell& cell, const Vector3d& position, Order& order,
-                                  FreeSamples& free) const {
+double PositionBarrier::effort_at(const BarrierCell& cell, const Vector3d& position, Order& order, FreeSamples& free,
+                                  const Monitor& monitor) const {
   double effort = 0;
   double weights = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Sample& sample = samples_[order[i]];
-    const double deep = depth(cell, sample.robot, position);
+    const double deep = depth(cell, sample.robot, position, monitor);
     if (deep <= pairs_.resolution()) {
       free.push_back(order[i]);
       move_forward(order, i);
@@ -87,9 +91,8 @@ void PositionBarrier::judge(std::span<const CellId> ids) {
   judged_.resize(graph_.size());
   std::vector<FreeSamples> free(ids.size());
   parallel_for(ids.size(), monitor_, [&](std::size_t i, const Monitor& own) {
-    own.check_interruption();
     Order order = order_;
-    judge(ids[i], order, free[i]);
+    judge(ids[i], order, free[i], own);
   });
   for (const FreeSamples& samples : free) {
     for (const std::uint32_t sample : samples) {
@@ -98,16 +101,16 @@ void PositionBarrier::judge(std::span<const CellId> ids) {
   }
 }
 
-void PositionBarrier::judge(CellId id, Order& order, FreeSamples& free) {
+void PositionBarrier::judge(CellId id, Order& order, FreeSamples& free, const Monitor& monitor) {
   BarrierCell& cell = graph_[id];
   Judged& judged = judged_[id];
   std::erase_if(cell.pairs, [&](const BlockingPairs::Pair& pair) { return !pairs_.may_meet(pair, cell.box); });
-  judged.effort = effort_at(cell, cell.box.middle(), order, free);
+  judged.effort = effort_at(cell, cell.box.middle(), order, free, monitor);
   judged.is_blocked = judged.effort < HUGE_VAL;
   const bool is_small = (cell.box.high - cell.box.low).maxCoeff() < pairs_.reach() / 512;
   const bool is_free = cell.pairs.empty() && (!graph_.is_bounded() || is_zero(reference_));
   cell.is_hopeless = !judged.is_blocked && (is_free || is_small);
-  choose_axis(cell, judged, order, free);
+  choose_axis(cell, judged, order, free, monitor);
   weigh(id);
 }
 
@@ -125,7 +128,8 @@ void PositionBarrier::weigh(CellId id) {
 
 // The axis along which the effort differs most between the middles of facets and that of the box, and whether it is low
 // everywhere; the longest axis if nothing is blocked.
-void PositionBarrier::choose_axis(BarrierCell& cell, Judged& judged, Order& order, FreeSamples& free) const {
+void PositionBarrier::choose_axis(BarrierCell& cell, Judged& judged, Order& order, FreeSamples& free,
+                                  const Monitor& monitor) const {
   constexpr double kMuchMore = 1.15;
   const double size = (cell.box.high - cell.box.low).maxCoeff();
   judged.is_settled = judged.is_blocked;
@@ -137,7 +141,7 @@ void PositionBarrier::choose_axis(BarrierCell& cell, Judged& judged, Order& orde
     for (const bool upper : {false, true}) {
       Vector3d at = cell.box.middle();
       at[axis] = upper ? cell.box.high[axis] : cell.box.low[axis];
-      const double effort = effort_at(cell, at, order, free);
+      const double effort = effort_at(cell, at, order, free, monitor);
       if (judged.is_blocked && effort > kMuchMore * judged.effort &&
           (effort == HUGE_VAL || width > pairs_.reach() / 16)) {
         judged.is_settled = false;
@@ -178,12 +182,13 @@ void PositionBarrier::add_open(CellId id, const OpenPose& open, std::size_t& bud
   }
   std::vector<char> is_wrong(others.size(), 0);
   constexpr std::size_t kCellsAtOnce = 16;
-  parallel_for_ranges(others.size(), kCellsAtOnce, monitor_, [&](std::size_t first, std::size_t last, const Monitor&) {
-    for (std::size_t i = first; i < last; ++i) {
-      const BarrierCell& cell = graph_[others[i]];
-      is_wrong[i] = depth(cell, samples_.back().robot, cell.box.middle()) <= pairs_.resolution() ? 1 : 0;
-    }
-  });
+  parallel_for_ranges(
+      others.size(), kCellsAtOnce, monitor_, [&](std::size_t first, std::size_t last, const Monitor& own) {
+        for (std::size_t i = first; i < last; ++i) {
+          const BarrierCell& cell = graph_[others[i]];
+          is_wrong[i] = depth(cell, samples_.back().robot, cell.box.middle(), own) <= pairs_.resolution() ? 1 : 0;
+        }
+      });
   std::vector<CellId> wrong;
   for (std::size_t i = 0; i < others.size(); ++i) {
     if (is_wrong[i] != 0) wrong.push_back(others[i]);
@@ -202,7 +207,7 @@ void PositionBarrier::add_open(CellId id, const OpenPose& open, std::size_t& bud
 
 // One round; false if nothing is left to be done.
 bool PositionBarrier::advance(std::size_t& budget) {
-  const std::vector<CellId> cells = graph_.cheapest_barrier();
+  const std::vector<CellId> cells = graph_.cheapest_barrier(monitor_);
   if (cells.empty()) return false;
   std::vector<CellId> halves;
   for (const CellId id : cells) {

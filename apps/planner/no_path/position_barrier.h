@@ -58,12 +58,14 @@ class PositionBarrier {
 
   void add_samples();
   void judge(std::span<const CellId> ids);
-  void judge(CellId id, Order& order, FreeSamples& free);
-  void choose_axis(BarrierCell& cell, Judged& judged, Order& order, FreeSamples& free) const;
+  void judge(CellId id, Order& order, FreeSamples& free, const Monitor& monitor);
+  void choose_axis(BarrierCell& cell, Judged& judged, Order& order, FreeSamples& free, const Monitor& monitor) const;
   void weigh(CellId id);
   static void move_forward(Order& order, std::size_t at) { std::swap(order[at], order[at / 2]); }
-  [[nodiscard]] double depth(const BarrierCell& cell, const TurnedRobot& robot, const Vector3d& position) const;
-  double effort_at(const BarrierCell& cell, const Vector3d& position, Order& order, FreeSamples& free) const;
+  [[nodiscard]] double depth(const BarrierCell& cell, const TurnedRobot& robot, const Vector3d& position,
+                             const Monitor& monitor) const;
+  double effort_at(const BarrierCell& cell, const Vector3d& position, Order& order, FreeSamples& free,
+                   const Monitor& monitor) const;
   bool advance(std::size_t& budget);
   bool cover(std::vector<CellId> ids, std::size_t& budget);
   void add_open(CellId id, const OpenPose& open, std::size_t& budget);

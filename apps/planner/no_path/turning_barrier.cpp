@@ -243,7 +243,7 @@ std::optional<PathProof> make_turning_proof(const Scene& scene, const TurningPro
   const auto enclosures = enclosures_of(sides_of(scene, found, monitor), reach_of(scene.robot), monitor);
   if (!enclosures) return std::nullopt;
   const Orientations orientations = Orientations::along(meant.chain);
-  const BlockingPairs pairs(proof.claim, orientations, {0, 0, 0});
+  const BlockingPairs pairs(proof.claim, orientations, {0, 0, 0}, monitor);
   SimplexCutter cutter(proof, pairs, monitor);
   const bool is_closed = !meant.places && are_proportional(meant.chain.front(), meant.chain.back());
   OrientationBox<Rational> box;

@@ -16,10 +16,9 @@ using PieceContact = InseparableProof::Contact;
 using DirectionCone = InseparableProof::Cone;
 
 json contact_json(const PieceContact& contact) {
-  return {
-      {"first", {contact.first.part, contact.first.piece}},
-      {"second", {contact.second.part, contact.second.piece}},
-      {"common", {{"first", numbers_json(contact.common.robot)}, {"second", numbers_json(contact.common.obstacle)}}}};
+  return {{"first", {contact.first.part, contact.first.piece}},
+          {"second", {contact.second.part, contact.second.piece}},
+          {"common", {{"first", exact_json(contact.common.robot)}, {"second", exact_json(contact.common.obstacle)}}}};
 }
 
 json cone_json(const DirectionCone& cone) {

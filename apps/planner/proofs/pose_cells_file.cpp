@@ -80,7 +80,7 @@ PathProof::PoseCell read_pose_cell(const JsonReader& reader) {
 json rotations_json(const std::vector<Quaternion>& rotations) {
   if (rotations.empty()) return "all";
   json chain = json::array();
-  for (const Quaternion& q : rotations) chain.push_back(numbers_json(q));
+  for (const Quaternion& q : rotations) chain.push_back(exact_json(q));
   return chain;
 }
 

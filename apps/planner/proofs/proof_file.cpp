@@ -11,6 +11,7 @@
 #include "apps/planner/proofs/layers_file.h"
 #include "apps/planner/proofs/pose_cells_file.h"
 #include "apps/planner/proofs/proof_reader.h"
+#include "apps/planner/rigid/pose_file.h"
 #include "apps/program/reports/exact_json.h"
 
 namespace nef::planner {
@@ -24,9 +25,7 @@ constexpr std::array kStatusNames{"path", "blocked", "infeasible", "tight"};  //
 
 json claim_json(const PathProof::Claim& claim) {
   json path = json::array();
-  for (const RigidPose& pose : claim.path) {
-    path.push_back({{"position", exact_json(pose.position)}, {"quaternion", numbers_json(pose.quaternion)}});
-  }
+  for (const RigidPose& pose : claim.path) path.push_back(pose_json(pose));
   json result{{"status", status_word(claim.status)},
               {"contact", claim.contact == ContactRule::kAllow ? "allow" : "forbid"},
               {"box", claim.box ? json::array({exact_json((*claim.box)[0]), exact_json((*claim.box)[1])}) : json()},
@@ -56,7 +55,7 @@ json motion_json(const std::vector<PathProof::Part>& parts) {
 }
 
 json common_json(const CommonPoint& point) {
-  return {{"robot", numbers_json(point.robot)}, {"obstacle", numbers_json(point.obstacle)}};
+  return {{"robot", exact_json(point.robot)}, {"obstacle", exact_json(point.obstacle)}};
 }
 
 json common_json(std::span<const CommonPoint> points) {
@@ -66,12 +65,9 @@ json common_json(std::span<const CommonPoint> points) {
 }
 
 json collision_json(const PathProof::Collision& collision) {
-  return {{"motion", collision.motion},
-          {"parameter", to_string(collision.parameter)},
-          {"times", numbers_json(collision.times)},
-          {"robot", collision.robot},
-          {"obstacle", collision.obstacle},
-          {"common", common_json(collision.common)}};
+  return {{"motion", collision.motion},           {"parameter", to_string(collision.parameter)},
+          {"times", exact_json(collision.times)}, {"robot", collision.robot},
+          {"obstacle", collision.obstacle},       {"common", common_json(collision.common)}};
 }
 
 json barrier_json(const PathProof::Barrier& barrier) {

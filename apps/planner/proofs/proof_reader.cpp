@@ -16,12 +16,6 @@ constexpr std::uint32_t kProofVersion = 1;
 
 }  // namespace
 
-json numbers_json(std::span<const Rational> numbers) {
-  json result = json::array();
-  for (const Rational& x : numbers) result.push_back(to_string(x));
-  return result;
-}
-
 json pieces_json(const ProofPieces& pieces) {
   json result = json::array();
   for (const std::vector<Rational3>& piece : pieces) {

@@ -6,7 +6,6 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <string>
 
 #include "apps/planner/proofs/path_proof.h"
@@ -14,8 +13,7 @@
 
 namespace nef::planner {
 
-/// Numbers, and pieces by their vertices, as exact strings.
-nlohmann::json numbers_json(std::span<const Rational> numbers);
+/// Pieces by their vertices, as exact strings.
 nlohmann::json pieces_json(const ProofPieces& pieces);
 
 /// What these wrote, in the one spelling that a number has: a string, whole or a fraction in lowest terms. Throw

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "nef/base/error.h"
+#include "nef/base/threads/parallel.h"
 
 namespace nef::planner {
 
@@ -13,11 +14,14 @@ CertifiedPath certify(const MotionChecker& checker, std::span<const RigidPose> p
   if (poses.empty()) throw InputError("a path needs one pose at least");
   CertifiedPath result;
   const std::size_t motions = std::max<std::size_t>(poses.size() - 1, 1);
-  for (std::size_t i = 0; i < motions; ++i) {
-    monitor.tell_progress("certifying motions", i, motions);
+  result.motions.resize(motions);
+  parallel_for(motions, monitor, [&](std::size_t i, const Monitor& own) {
+    own.tell_progress("certifying motions", i, motions);
     const RigidPose& to = poses[std::min(i + 1, poses.size() - 1)];
-    result.motions.push_back(checker.check(RigidMotion(poses[i], to, timing), limits, monitor));
-    const Status status = result.motions.back().status;
+    result.motions[i] = checker.check(RigidMotion(poses[i], to, timing), limits, own);
+  });
+  for (std::size_t i = 0; i < motions; ++i) {
+    const Status status = result.motions[i].status;
     if (status == Status::kCollides && !result.blocked) result.blocked = i;
     if (status == Status::kUndecided && result.status == Status::kFree) result.status = Status::kUndecided;
   }
@@ -35,10 +39,11 @@ Scene with_robot_as_in_its_file(Scene scene, const Monitor& monitor) {
   return scene;
 }
 
-bool moves_freely(const MotionChecker& checker, const RigidPose& from, const RigidPose& to) {
+bool moves_freely(const MotionChecker& checker, const RigidPose& from, const RigidPose& to, const Monitor& monitor) {
   CheckLimits limits = CheckLimits::for_planners();
   limits.keep_pose = false;
-  return checker.check(RigidMotion(from, to, MotionTiming::kSlerp), limits).status == MotionVerdict::Status::kFree;
+  const MotionVerdict verdict = checker.check(RigidMotion(from, to, MotionTiming::kSlerp), limits, monitor);
+  return verdict.status == MotionVerdict::Status::kFree;
 }
 
 }  // namespace nef::planner

@@ -33,7 +33,7 @@ CertifiedPath certify(const MotionChecker& checker, std::span<const RigidPose> p
 Scene with_robot_as_in_its_file(Scene scene, const Monitor& monitor = {});
 
 /// True if the motion from one pose to another one (MotionTiming::kSlerp) is proved free by what planners spend on a
-/// motion (CheckLimits::for_planners).
-bool moves_freely(const MotionChecker& checker, const RigidPose& from, const RigidPose& to);
+/// motion (CheckLimits::for_planners). `monitor` can stop it (Interrupted).
+bool moves_freely(const MotionChecker& checker, const RigidPose& from, const RigidPose& to, const Monitor& monitor);
 
 }  // namespace nef::planner

@@ -153,6 +153,7 @@ class MotionExamination {
   }
 
   bool leaves_apart(const Part& part, const MotionCell& cell, std::uint32_t robot, std::uint32_t obstacle) {
+    monitor_.check_interruption();
     const RigidBody::Piece& a = checker_.robot_.pieces()[robot];
     const RigidBody::Piece& b = checker_.obstacles_.pieces()[obstacle];
     place_robot(robot, cell);
@@ -172,6 +173,7 @@ class MotionExamination {
   // says which. Nothing if that takes too many tests.
   std::optional<bool> meets_straight(const Part& part, const std::vector<Pair>& pairs) {
     for (const Pair& pair : pairs) {
+      monitor_.check_interruption();
       if (exact_tests_ >= limits_.max_exact) return std::nullopt;
       ++exact_tests_;
       const std::uint32_t robot = checker_.robot_.nodes()[pair[0]].first;
@@ -209,6 +211,7 @@ class MotionExamination {
   }
 
   bool collide(double s, const MotionCell& cell, std::uint32_t robot, std::uint32_t obstacle, bool exact) {
+    monitor_.check_interruption();
     const RigidBody::Piece& a = checker_.robot_.pieces()[robot];
     const RigidBody::Piece& b = checker_.obstacles_.pieces()[obstacle];
     place_robot(robot, cell);
@@ -267,7 +270,7 @@ MotionChecker MotionChecker::of_scene(const Scene& scene, const Monitor& monitor
           scene.box};
 }
 
-MotionVerdict MotionChecker::check(const RigidPose& pose, const CheckLimits& limits) const {
+MotionVerdict MotionChecker::check(const RigidPose& pose, const CheckLimits& limits, const Monitor& monitor) const {
   const RigidMotion still(pose, pose);
   MotionVerdict verdict;
   if (!in_box(pose.position)) {
@@ -275,8 +278,7 @@ MotionVerdict MotionChecker::check(const RigidPose& pose, const CheckLimits& lim
     verdict.pose = pose;
     return verdict;
   }
-  const Monitor nobody;
-  MotionExamination examination(*this, still, limits, nobody);
+  MotionExamination examination(*this, still, limits, monitor);
   examination.collides_at(0);
   return examination.take();
 }

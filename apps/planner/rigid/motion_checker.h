@@ -92,8 +92,9 @@ class MotionChecker {
   /// scene has a box. Throws InputError as RigidBody::of_set does.
   static MotionChecker of_scene(const Scene& scene, const Monitor& monitor = {});
 
-  /// Exact. For a collision the verdict says where; it is never kUndecided.
-  [[nodiscard]] MotionVerdict check(const RigidPose& pose, const CheckLimits& limits = {}) const;
+  /// Exact. For a collision the verdict says where; it is never kUndecided. `monitor` can stop it (Interrupted).
+  [[nodiscard]] MotionVerdict check(const RigidPose& pose, const CheckLimits& limits = {},
+                                    const Monitor& monitor = {}) const;
   /// Never wrong; kUndecided if the limits are reached. Both ends are checked exactly, unless the motion is decided
   /// before. `monitor` can stop it (Interrupted).
   [[nodiscard]] MotionVerdict check(const RigidMotion& motion, const CheckLimits& limits = {},

@@ -42,6 +42,10 @@ std::vector<RigidPose> poses_of_json(const std::string& text, const std::string&
 
 }  // namespace
 
+nlohmann::json pose_json(const RigidPose& pose) {
+  return {{"position", exact_json(pose.position)}, {"quaternion", exact_json(pose.quaternion)}};
+}
+
 bool is_turned(const RigidPose& pose) {
   return pose.quaternion[1] != 0 || pose.quaternion[2] != 0 || pose.quaternion[3] != 0;
 }

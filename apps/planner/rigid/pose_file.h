@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Paths in files.
+// Paths in files, and poses as these spell them.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ namespace nef::planner {
 /// is turned, it is a path of translations, and all quaternions are (1, 0, 0, 0). Throws InputError "file:line: what"
 /// for another file, a quaternion that is zero, and a file without poses.
 std::vector<RigidPose> read_path(const std::string& file);
+
+/// A pose of such a report, exactly.
+nlohmann::json pose_json(const RigidPose& pose);
 
 /// True if the pose has a rotation.
 bool is_turned(const RigidPose& pose);

@@ -51,7 +51,8 @@ RigidBody RigidBody::of_set(const Polyhedron& set, const Monitor& monitor) {
     if (cell.dimension == 3) pieces.push_back(piece_of(cell.mesh, false));
   }
   if (!set.is_regular()) {
-    for (const minkowski::ConvexCell& cell : minkowski::decompose(closure(subtract(set, solid, monitor)), monitor)) {
+    for (const minkowski::ConvexCell& cell :
+         minkowski::decompose(closure(subtract(set, solid, monitor), monitor), monitor)) {
       pieces.push_back(piece_of(cell.mesh, true));
     }
   }

@@ -11,6 +11,7 @@
 #include "apps/planner/rigid_ompl/rigid_validity.h"
 #include "apps/planner/rigid_search/rigid_planning.h"
 #include "apps/planner/rigid_search/rotations.h"
+#include "nef/base/interruption.h"
 
 namespace nef::planner {
 
@@ -61,6 +62,11 @@ SlicePool::SlicePool(Scene scene, std::shared_ptr<const MotionChecker> checker)
   if (!isDone_) drawsPerSlice_ = turn.samples / turn.slices;
 }
 
+void SlicePool::setMonitor(const Monitor& monitor) {
+  const std::scoped_lock lock(mutex_);
+  monitor_ = monitor.of_other_thread().on_threads(1);
+}
+
 void SlicePool::countDraw() {
   const std::scoped_lock lock(mutex_);
   ++draws_;
@@ -70,9 +76,14 @@ void SlicePool::countDraw() {
 }
 
 void SlicePool::search(std::size_t slices) {
-  if (search_ == nullptr) search_ = std::make_unique<SliceSearch>(scene_, question_, *checker_);
-  const bool isFound = search_->run(slices, {}).has_value();
-  isDone_ = isFound || search_->slices() < slices;
+  try {
+    if (search_ == nullptr) search_ = std::make_unique<SliceSearch>(scene_, question_, *checker_, monitor_);
+    const bool isFound = search_->run(slices, monitor_).has_value();
+    isDone_ = isFound || search_->slices() < slices;
+  } catch (const Interrupted&) {
+    isDone_ = true;
+    return;
+  }
   for (const auto& [rotation, slice] : search_->made()) {
     if (rotations_.insert(rotation).second) add(rotation, *slice);
   }

@@ -16,6 +16,7 @@
 #include "apps/planner/rigid/motion_checker.h"
 #include "apps/planner/rigid_search/slice_search.h"
 #include "apps/planner/scene/scene.h"
+#include "nef/base/monitor.h"
 
 namespace nef::planner {
 
@@ -29,6 +30,10 @@ class SlicePool {
  public:
   /** \brief \e checker must be that of the scene. Throws InputError as rigid_question_of does. */
   SlicePool(Scene scene, std::shared_ptr<const MotionChecker> checker);
+
+  /** \brief What stops \e monitor stops slices that are made from now on, too; then no more are made. It is not asked,
+      as any thread may draw. What it refers to must outlive the drawing. */
+  void setMonitor(const Monitor& monitor);
 
   /** \brief A sampler is about to draw a state, in whatever way: makes a slice if it is time for one. */
   void countDraw();
@@ -55,6 +60,7 @@ class SlicePool {
   RigidQuestion question_;
   std::shared_ptr<const MotionChecker> checker_;
   mutable std::mutex mutex_;
+  Monitor monitor_;
   std::unique_ptr<SliceSearch> search_;  // from the first slice on
   bool isDone_;                          // no more slices are made
   std::size_t drawsPerSlice_ = 1;

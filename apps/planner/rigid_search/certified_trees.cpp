@@ -60,31 +60,31 @@ std::size_t CertifiedTrees::nearest(const Tree& tree, const Vector3d& position,
 
 // One step towards a pose; if that is near, to `arrival` itself, if it is given.
 CertifiedTrees::Step CertifiedTrees::extend(const RigidPose& from, const Sample& to, const RigidPose* arrival,
-                                            std::vector<RigidPose>& poses) const {
+                                            std::vector<RigidPose>& poses, const Monitor& monitor) const {
   const double away =
       metric_.distance(to_vector(from.position), PoseMetric::rounded(from.quaternion), to.position, to.rotation);
   const bool arrives = away <= range_;
   const RigidPose next = arrives && arrival != nullptr
                              ? *arrival
                              : metric_.between(from, to.position, to.rotation, arrives ? 1 : range_ / away);
-  if (!moves_freely(checker_, from, next)) return Step::kBlocked;
+  if (!moves_freely(checker_, from, next, monitor)) return Step::kBlocked;
   poses.push_back(next);
   return arrives ? Step::kArrived : Step::kGone;
 }
 
-CertifiedTrees::Trial CertifiedTrees::tried(const Sample& sample) const {
+CertifiedTrees::Trial CertifiedTrees::tried(const Sample& sample, const Monitor& monitor) const {
   Trial trial;
   const Tree& tree = trees_[sample.tree];
   const Tree& other = trees_[1 - sample.tree];
   trial.from = nearest(tree, sample.position, sample.rotation);
-  if (extend(tree.poses[trial.from], sample, nullptr, trial.poses) == Step::kBlocked) return trial;
+  if (extend(tree.poses[trial.from], sample, nullptr, trial.poses, monitor) == Step::kBlocked) return trial;
   const RigidPose& made = trial.poses.back();
   const Sample goal{to_vector(made.position), PoseMetric::rounded(made.quaternion), 0};
   trial.other_from = nearest(other, goal.position, goal.rotation);
   Step step = Step::kGone;
   while (step == Step::kGone) {
     const RigidPose from = trial.other_poses.empty() ? other.poses[trial.other_from] : trial.other_poses.back();
-    step = extend(from, goal, &made, trial.other_poses);
+    step = extend(from, goal, &made, trial.other_poses, monitor);
   }
   trial.arrives = step == Step::kArrived;
   return trial;
@@ -116,8 +116,8 @@ std::optional<std::vector<RigidPose>> CertifiedTrees::run(std::size_t max_sample
       turn_ = 1 - turn_;
     }
     std::vector<Trial> trials(samples.size());
-    first_true(samples.size(), monitor, [&](std::size_t i, const Monitor&) {
-      trials[i] = tried(samples[i]);
+    first_true(samples.size(), monitor, [&](std::size_t i, const Monitor& own) {
+      trials[i] = tried(samples[i], own);
       return trials[i].arrives;
     });
     for (std::size_t i = 0; i < samples.size(); ++i, ++samples_) {

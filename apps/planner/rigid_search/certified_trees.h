@@ -62,8 +62,9 @@ class CertifiedTrees {
   [[nodiscard]] std::size_t nearest(const Tree& tree, const Vector3d& position,
                                     const Eigen::Quaterniond& rotation) const;
   [[nodiscard]] std::size_t samples_at_once() const;
-  Step extend(const RigidPose& from, const Sample& to, const RigidPose* arrival, std::vector<RigidPose>& poses) const;
-  [[nodiscard]] Trial tried(const Sample& sample) const;
+  Step extend(const RigidPose& from, const Sample& to, const RigidPose* arrival, std::vector<RigidPose>& poses,
+              const Monitor& monitor) const;
+  [[nodiscard]] Trial tried(const Sample& sample, const Monitor& monitor) const;
   [[nodiscard]] std::vector<RigidPose> path() const;
 
   const MotionChecker& checker_;

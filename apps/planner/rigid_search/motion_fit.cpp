@@ -138,7 +138,7 @@ MotionFit::Pair MotionFit::best_pair(const Eigen::Matrix3d& turn, const Vector3d
 }
 
 void MotionFit::find_pairs(const Turns& turns, const std::vector<Vector3d>& positions, double reach,
-                           std::vector<Pair>& pairs) const {
+                           std::vector<Pair>& pairs, const Monitor& monitor) const {
   pairs.clear();
   for (std::size_t time = 0; time < turns.times.size(); ++time) {
     const Vector3d position = Turns::position(positions, time);
@@ -147,6 +147,7 @@ void MotionFit::find_pairs(const Turns& turns, const std::vector<Vector3d>& posi
       for (const Piece& obstacle : obstacles_) {
         const double away = std::max((obstacle.low - middle).maxCoeff(), (middle - obstacle.high).maxCoeff());
         if (away > robot.radius + reach) continue;
+        monitor.check_interruption();
         Pair pair = best_pair(turns.times[time], position, robot, obstacle, reach);
         pair.time = time;
         if (pair.gap < reach) pairs.push_back(pair);
@@ -200,7 +201,7 @@ std::vector<Vector3d> MotionFit::step(const std::vector<Pair>& pairs, const std:
 }
 
 double MotionFit::fit(std::span<const Quaternion> rotations, std::vector<Vector3d>& positions, double reach,
-                      double margin) const {
+                      double margin, const Monitor& monitor) const {
   const Turns turns(rotations);
   const auto smallest = [&](const std::vector<Pair>& pairs) {
     double gap = margin;
@@ -209,15 +210,16 @@ double MotionFit::fit(std::span<const Quaternion> rotations, std::vector<Vector3
   };
   std::vector<Pair> pairs;
   const double near = 2 * reach + margin;
-  find_pairs(turns, positions, near, pairs);
+  find_pairs(turns, positions, near, pairs, monitor);
   double gap = smallest(pairs);
   double trust = reach;
   constexpr int kMostSteps = 8;
   for (int i = 0; i < kMostSteps && gap < margin && trust > reach / 32; ++i) {
     if (i > 2 && gap < -reach / 2) break;  // it does not look as if anything fitted
+    monitor.check_interruption();
     std::vector<Vector3d> moved = step(pairs, positions, trust, margin);
     std::vector<Pair> next;
-    find_pairs(turns, moved, near, next);
+    find_pairs(turns, moved, near, next, monitor);
     const double found = smallest(next);
     if (found <= gap) {
       trust /= 3;

@@ -24,9 +24,10 @@ class MotionFit {
   /// Moves the positions of a motion through poses with these rotations, one position each, so that the smallest gap
   /// along it grows: by no more than about `reach` each, and no further than to gaps of `margin`. Returns the smallest
   /// gap that is seen at these poses and in the middle between them, negative if bodies overlap. A few linear programs
-  /// with three variables a pose, and a constraint for each time and each pair of pieces that is near then.
-  double fit(std::span<const Quaternion> rotations, std::vector<Vector3d>& positions, double reach,
-             double margin) const;
+  /// with three variables a pose, and a constraint for each time and each pair of pieces that is near then. `monitor`
+  /// can stop it (Interrupted).
+  double fit(std::span<const Quaternion> rotations, std::vector<Vector3d>& positions, double reach, double margin,
+             const Monitor& monitor = {}) const;
 
  private:
   struct Piece {
@@ -41,8 +42,8 @@ class MotionFit {
   struct Pair;
   struct Turns;
   static std::vector<Piece> pieces_of(const RigidBody& body);
-  void find_pairs(const Turns& turns, const std::vector<Vector3d>& positions, double reach,
-                  std::vector<Pair>& pairs) const;
+  void find_pairs(const Turns& turns, const std::vector<Vector3d>& positions, double reach, std::vector<Pair>& pairs,
+                  const Monitor& monitor) const;
   // The plane with the largest gap; or any that leaves enough.
   static Pair best_pair(const Eigen::Matrix3d& turn, const Vector3d& position, const Piece& robot,
                         const Piece& obstacle, double enough);

@@ -14,6 +14,7 @@
 #include "apps/planner/rigid_search/certified_trees.h"
 #include "apps/planner/rigid_search/shorten_poses.h"
 #include "apps/planner/rigid_search/slice_search.h"
+#include "apps/planner/rigid_search/slices.h"
 #include "nef/base/interruption.h"
 #include "nef/construct/construct.h"
 
@@ -26,24 +27,23 @@ constexpr std::size_t kMostTimes = 64;        // at most so often
 constexpr std::size_t kFirstSlices = 40;
 constexpr std::size_t kFewBoxes = 2500;  // before the first slices
 constexpr std::size_t kFirstBoxes = 20000;
-constexpr std::size_t kFewLeft = 160;      // as it is estimated where there is a proof: see NoPathAnswer::cells_left
-constexpr std::size_t kLongestTurn = 3;    // times as long as planned
-constexpr std::size_t kLightPairs = 2000;  // pairs of pieces; scenes with more get fewer slices
-
-std::size_t pairs_of(const MotionChecker& checker) {
-  return checker.robot().pieces().size() * checker.obstacles().pieces().size();
-}
+constexpr std::size_t kFewLeft = 160;    // as it is estimated where there is a proof: see NoPathAnswer::cells_left
+constexpr std::size_t kLongestTurn = 3;  // times as long as planned
 
 class RigidPlanning {
  public:
   RigidPlanning(const Scene& scene, const MotionChecker& checker, const RigidLimits& limits, const Monitor& monitor)
-      : scene_(scene), question_(rigid_question_of(scene)), checker_(checker), limits_(limits), monitor_(monitor) {}
+      : scene_(scene),
+        question_(rigid_question_of(scene)),
+        checker_(checker),
+        limits_(limits),
+        monitor_(monitor),
+        unstopped_(Monitor().on_threads(monitor.threads())) {}
 
   RigidAnswer run() {
-    if (auto invalid = invalid_rigid_end(scene_, checker_, monitor_)) return *std::move(invalid);
-    if (is_answer({question_.start, question_.goal})) return std::move(answer_);
     try {
-      search();
+      if (auto invalid = invalid_rigid_end(scene_, checker_, monitor_)) return *std::move(invalid);
+      if (!is_answer({question_.start, question_.goal}, monitor_)) search();
     } catch (const Interrupted&) {
       count();
     }
@@ -60,7 +60,7 @@ class RigidPlanning {
       const RigidTurn turn = RigidTurn::of(checker_, size);
       samples = std::min(samples + turn.samples, limits_.max_samples);
       if (const auto path = trees_->run(samples, monitor_)) {
-        if (is_answer(*path)) return;
+        if (is_answer(*path, unstopped_)) return;
       }
       count();
       if (size == 1 && is_light(checker_) && search_proof(std::min(kFewBoxes, limits_.max_boxes))) return;
@@ -103,7 +103,7 @@ class RigidPlanning {
     if (slices > 0) {
       if (slices_ == nullptr) slices_ = std::make_unique<SliceSearch>(scene_, question_, checker_, monitor_);
       const auto path = slices_->run(slices, monitor_);
-      if (path && is_answer(*path)) return true;
+      if (path && is_answer(*path, unstopped_)) return true;
       // A path that is not certified touches a surface, which slices allow at its border.
       if (path || slices_->slices() < slices) slices_are_done_ = true;
     }
@@ -112,11 +112,11 @@ class RigidPlanning {
   }
 
   // Takes a path for the answer if all its motions are certified; it is shortened first.
-  bool is_answer(std::vector<RigidPose> path) {
+  bool is_answer(std::vector<RigidPose> path, const Monitor& monitor) {
     if (path.size() > 2) path = shorten(checker_, std::move(path), monitor_);
     path.front() = question_.start;
     path.back() = question_.goal;
-    CertifiedPath certified = certify(checker_, path);
+    CertifiedPath certified = certify(checker_, path, MotionTiming::kSlerp, {}, monitor);
     if (certified.status != MotionVerdict::Status::kFree) return false;
     answer_.status = RigidAnswer::Status::kPath;
     answer_.in_question = {};
@@ -136,6 +136,7 @@ class RigidPlanning {
   const MotionChecker& checker_;
   RigidLimits limits_;
   const Monitor& monitor_;
+  Monitor unstopped_;  // a path that was found in time is certified to the end
   std::optional<CertifiedTrees> trees_;
   std::unique_ptr<SliceSearch> slices_;
   std::unique_ptr<NoPathSearch> proofs_;
@@ -145,8 +146,6 @@ class RigidPlanning {
 };
 
 }  // namespace
-
-bool is_light(const MotionChecker& checker) { return pairs_of(checker) <= kLightPairs; }
 
 RigidTurn RigidTurn::of(const MotionChecker& checker, std::size_t size) {
   const std::size_t pairs = pairs_of(checker);
@@ -170,7 +169,7 @@ std::optional<RigidAnswer> invalid_rigid_end(const Scene& scene, const MotionChe
   const RigidQuestion question = rigid_question_of(scene);
   for (const auto& [pose, status] : {std::pair(&question.start, RigidAnswer::Status::kInvalidStart),
                                      std::pair(&question.goal, RigidAnswer::Status::kInvalidGoal)}) {
-    if (checker.check(*pose).status == MotionVerdict::Status::kFree) continue;
+    if (checker.check(*pose, {}, monitor).status == MotionVerdict::Status::kFree) continue;
     RigidAnswer answer;
     answer.collision = find_collision(scene, *pose, monitor);
     answer.status = status;

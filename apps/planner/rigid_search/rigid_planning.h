@@ -27,9 +27,6 @@ struct RigidLimits {
   static RigidLimits of(std::optional<std::size_t> max_slices, bool time_is_limited);
 };
 
-/// Whether a scene has so few pairs of pieces that slices, Minkowski sums of all of them, do not take long.
-bool is_light(const MotionChecker& checker);
-
 /// How much random poses and slices do in a turn of find_rigid_path.
 struct RigidTurn {
   std::size_t samples = 0;

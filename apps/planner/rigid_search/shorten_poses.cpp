@@ -28,8 +28,7 @@ class Shortening {
 
  private:
   [[nodiscard]] bool is_free(const RigidPose& from, const RigidPose& to) const {
-    monitor_.check_interruption();
-    return moves_freely(checker_, from, to);
+    return moves_freely(checker_, from, to, monitor_);
   }
 
   // From each pose to the last one that is reached at once.
@@ -37,8 +36,8 @@ class Shortening {
     constexpr std::size_t kFarthest = 48;
     for (std::size_t i = 0; i + 2 < path_.size(); ++i) {
       const std::size_t farthest = std::min(path_.size() - 1, i + kFarthest);
-      const std::size_t back = first_true(farthest - i - 1, monitor_, [&](std::size_t k, const Monitor&) {
-        return moves_freely(checker_, path_[i], path_[farthest - k]);
+      const std::size_t back = first_true(farthest - i - 1, monitor_, [&](std::size_t k, const Monitor& own) {
+        return moves_freely(checker_, path_[i], path_[farthest - k], own);
       });
       const auto begin = path_.begin() + static_cast<std::ptrdiff_t>(i) + 1;
       path_.erase(begin, path_.begin() + static_cast<std::ptrdiff_t>(farthest - back));

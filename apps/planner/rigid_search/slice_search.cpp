@@ -26,10 +26,6 @@ struct Round {
 constexpr std::array<Round, 10> kRounds{Round{0, 0}, {0, 1}, {0, 2}, {0, 3}, {0, 4},
                                         {1, 1},      {1, 2}, {1, 3}, {2, 2}, {2, 3}};
 
-// Pairs of pieces. The slices of scenes with more take long, so trees grow in turn, each on all threads: who watches is
-// asked in one thread only.
-constexpr std::size_t kMostPairsAtOnce = 2000;
-
 }  // namespace
 
 class SliceSearch::State {
@@ -39,7 +35,7 @@ class SliceSearch::State {
         slices_(scene, monitor),
         metric_(checker.robot().nodes().front().reach),
         goal_(question.goal),
-        is_light_(checker.robot().pieces().size() * checker.obstacles().pieces().size() <= kMostPairsAtOnce),
+        is_light_(is_light(checker)),
         trees_{SliceTree(checker, fit_, metric_, slices_, question.start, question.goal),
                SliceTree(checker, fit_, metric_, slices_, question.goal, question.start)} {}
 
@@ -156,7 +152,7 @@ class SliceSearch::State {
   Slices slices_;
   PoseMetric metric_;
   RigidPose goal_;
-  bool is_light_;
+  bool is_light_;                   // else slices take long, so trees grow in turn, each on all threads
   std::array<SliceTree, 2> trees_;  // from the start, and from the goal
   std::set<Quaternion> made_;       // the slices that both have asked for, as Slices::shared names them
   std::size_t round_ = 0;

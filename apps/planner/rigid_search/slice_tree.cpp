@@ -217,7 +217,6 @@ std::vector<RigidPose> SliceTree::first_fit(const Node& node, const Quaternion& 
 // A certified motion from a node to a component, beginning and ending near two points; nothing if there is none.
 std::vector<RigidPose> SliceTree::fitted(const Node& node, const Quaternion& rotation, const Slice& slice,
                                          std::size_t component, const Ends& ends, const Monitor& monitor) const {
-  monitor.check_interruption();
   const double angle = angle_between(node.rotation, rotation);
   const std::size_t parts = angle > 0.6 ? 8 : angle > 0.15 ? 4 : 2;
   std::vector<Quaternion> rotations;
@@ -230,17 +229,17 @@ std::vector<RigidPose> SliceTree::fitted(const Node& node, const Quaternion& rot
     positions.emplace_back(ends.from + (ends.to - ends.from) * (static_cast<double>(i) / static_cast<double>(parts)));
   }
   if (fit_.is_worthwhile()) {
-    const double gap = fit_.fit(rotations, positions, reach_ / 4, reach_ / 50);
+    const double gap = fit_.fit(rotations, positions, reach_ / 4, reach_ / 50, monitor);
     if (gap < -reach_ / 64) return {};
   }
   std::vector<RigidPose> poses;
   for (std::size_t i = 0; i <= parts; ++i) poses.push_back({metric_.exact(positions[i]), rotations[i]});
   if (node.slice->component_at(poses.front().position) != node.component) return {};
   if (slice.component_at(poses.back().position) != component) return {};
-  for (std::size_t i = 0; i < parts; ++i) {
-    if (!moves_freely(checker_, poses[i], poses[i + 1])) return {};
-  }
-  return poses;
+  const std::size_t blocked = first_true(parts, monitor, [&](std::size_t i, const Monitor& own) {
+    return !moves_freely(checker_, poses[i], poses[i + 1], own);
+  });
+  return blocked == parts ? poses : std::vector<RigidPose>();
 }
 
 std::vector<SliceTree::NodeIndex> SliceTree::ancestry(NodeIndex node) const {

@@ -51,6 +51,10 @@ std::vector<std::size_t> spread(const std::vector<Vector3d>& points, std::size_t
 
 }  // namespace
 
+std::size_t pairs_of(const MotionChecker& checker) {
+  return checker.robot().pieces().size() * checker.obstacles().pieces().size();
+}
+
 std::optional<std::size_t> Slice::component_at(const Rational3& position) const {
   const CellId cell = free->locate(ExactPoint(position));
   if (!free->is_free(cell)) return std::nullopt;

@@ -3,6 +3,7 @@
 // Slices: the exact translational free spaces of a robot at rotations, made when they are asked for.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -12,11 +13,18 @@
 
 #include "apps/planner/free_space/free_space.h"
 #include "apps/planner/intersection/vectors.h"
-#include "apps/planner/rigid/rigid_motion.h"
+#include "apps/planner/rigid/motion_checker.h"
 #include "apps/planner/scene/scene.h"
 #include "nef/base/monitor.h"
 
 namespace nef::planner {
+
+/// How many pairs of pieces, one of the robot and one of the obstacles, a slice is a sum of.
+std::size_t pairs_of(const MotionChecker& checker);
+/// Slices of scenes of more pairs take long.
+inline constexpr std::size_t kLightPairs = 2000;
+/// Whether a scene has no more.
+inline bool is_light(const MotionChecker& checker) { return pairs_of(checker) <= kLightPairs; }
 
 /// A component of free space that has an inside, and some points of it that are spread over it.
 struct SliceComponent {

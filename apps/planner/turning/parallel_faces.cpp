@@ -46,11 +46,13 @@ std::set<Rational3> normals_of(const TurningRobot& robot) {
 
 }  // namespace
 
-std::set<Turn> turns_of_parallel_faces(const Scene& scene, const TurningRobot& robot, const TurningQuestion& question) {
+std::set<Turn> turns_of_parallel_faces(const Scene& scene, const TurningRobot& robot, const TurningQuestion& question,
+                                       const Monitor& monitor) {
   std::set<Turn> turns;
   const std::set<Rational3> of_obstacles = normals_of(scene.obstacles, question.axis);
   for (const Rational3& n : normals_of(robot)) {
     for (const Rational3& m : of_obstacles) {
+      monitor.check_interruption();
       // The angle from n to m or its opposite, since facets have two sides; in the range, which may begin anywhere.
       for (const Rational3& to : {m, opposite(m)}) {
         const std::optional<Turn> turn = question.axis.turn_between(n, to);

@@ -11,9 +11,9 @@
 #include <deque>
 #include <set>
 
-#include "apps/planner/free_space/collision.h"
 #include "apps/planner/path/path.h"
 #include "apps/planner/path/simple_points.h"
+#include "apps/planner/rigid/rigid_question.h"
 #include "apps/planner/turning/turning_cells.h"
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
@@ -43,7 +43,7 @@ class TurningSearch {
         limits_(limits),
         monitor_(monitor),
         cells_(scene, question, monitor),
-        parallel_(turns_of_parallel_faces(scene, cells_.robot(), question)) {}
+        parallel_(turns_of_parallel_faces(scene, cells_.robot(), question, monitor)) {}
 
   TurningAnswer run() {
     try {
@@ -314,9 +314,8 @@ std::optional<TurningAnswer> invalid_turning_end(const Scene& scene, const Turni
   turning_robot(scene.robot);
   for (const auto& [pose, status] : {std::pair(&question.start, TurningAnswer::Status::kInvalidStart),
                                      std::pair(&question.goal, TurningAnswer::Status::kInvalidGoal)}) {
-    Scene there = scene;
-    there.robot = transform(scene.robot, question.axis.rotation(pose->turn), monitor);
-    std::optional<Collision> collision = find_collision(there, pose->position, monitor);
+    const RigidPose at{pose->position, question.axis.quaternion(pose->turn)};
+    std::optional<Collision> collision = find_collision(scene, at, monitor);
     if (!collision) continue;
     TurningAnswer answer;
     answer.status = status;

@@ -157,7 +157,11 @@ Rational3 point_of(const json& value, const std::string& what) {
   return {rational_of(value[0], what), rational_of(value[1], what), rational_of(value[2], what)};
 }
 
-json exact_json(const Rational3& point) { return {to_string(point[0]), to_string(point[1]), to_string(point[2])}; }
+json exact_json(std::span<const Rational> numbers) {
+  json result = json::array();
+  for (const Rational& x : numbers) result.push_back(to_string(x));
+  return result;
+}
 
 json double_json(const Rational3& point) {
   return {nearest_double(point[0]), nearest_double(point[1]), nearest_double(point[2])};

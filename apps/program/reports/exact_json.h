@@ -4,6 +4,7 @@
 #pragma once
 
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -29,8 +30,8 @@ std::vector<Rational> rationals_of(const nlohmann::json& value, const std::strin
 /// Three of them from an array.
 Rational3 point_of(const nlohmann::json& value, const std::string& what);
 
-/// Arrays of exact strings and of nearest doubles.
-nlohmann::json exact_json(const Rational3& point);
+/// Arrays of exact strings, of points or any numbers, and of nearest doubles.
+nlohmann::json exact_json(std::span<const Rational> numbers);
 nlohmann::json double_json(const Rational3& point);
 
 }  // namespace nef

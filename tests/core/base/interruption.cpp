@@ -6,11 +6,13 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <functional>
+#include <optional>
 #include <thread>
 #include <vector>
 
 #include "nef/base/monitor.h"
 #include "nef/base/threads/parallel.h"
+#include "nef/base/timing/time_limit.h"
 #include "tests/support/literals.h"
 
 namespace nef {
@@ -148,6 +150,40 @@ TEST_CASE("a function that is asked stops what goes on inside one operation", "[
   CHECK_NOTHROW(unite(a, b, within.monitor()));
   outer_stops = true;
   CHECK_THROWS_AS(unite(a, b, within.monitor()), Interrupted);
+}
+
+TEST_CASE("a time limit stops other threads while the one that began waits for them", "[threads]") {
+  constexpr double kLong = 60;  // seconds that the loop goes on if nothing stops it
+  const TimeLimit limit(0.01);
+  const StopQuestion inner([] { return false; }, limit.monitor());
+  for (const Monitor& monitor : {limit.monitor(), inner.monitor()}) {
+    bool is_stopped = false;
+    std::thread other([&is_stopped, own = monitor.of_other_thread()] {
+      const Stopwatch watch;
+      try {
+        while (watch.seconds() < kLong) own.check_interruption();
+      } catch (const Interrupted&) {
+        is_stopped = true;
+      }
+    });
+    other.join();
+    CHECK(is_stopped);
+  }
+}
+
+TEST_CASE("a time limit of nothing stops at once, and none never") {
+  for (const double none : {0.0, -1.0}) {
+    const TimeLimit over(none);
+    CHECK_THROWS_AS(over.monitor().check_interruption(), Interrupted);
+  }
+  for (const std::optional<double>& most : {std::optional<double>(), std::optional(1e300)}) {
+    std::atomic<bool> stop{false};
+    const TimeLimit limit(most, Monitor().stopped_by(&stop));
+    for (int i = 0; i < 100; ++i) CHECK_NOTHROW(limit.monitor().check_interruption());
+    stop = true;
+    CHECK_THROWS_AS(limit.monitor().check_interruption(), Interrupted);
+    CHECK_THROWS_AS(limit.monitor().of_other_thread().check_interruption(), Interrupted);
+  }
 }
 
 }  // namespace nef

@@ -8,6 +8,7 @@
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 #include <ompl/util/RandomNumbers.h>
 
+#include <atomic>
 #include <catch2/catch.hpp>
 
 #include "apps/planner/rigid/rigid_question.h"
@@ -58,6 +59,27 @@ TEST_CASE("Poses from slices are free, and some are in the hole, where as many u
     uniform->sampleUniform(state.get());
     const RigidPose pose = *pose_of(setup.space(), state.get());
     if (is_in_hole(pose)) CHECK_FALSE(si->isValid(state.get()));
+  }
+}
+
+TEST_CASE("No slices are made once what stops the pool has stopped, and those that are there are drawn from",
+          "[rigid]") {
+  const Scene scene = hole_of("11/20");
+  std::atomic<bool> stop{true};
+  for (const bool from_the_start : {true, false}) {
+    const SE3Planning setup(scene, checker_of(scene));
+    SlicePool& pool = *setup.space().getSlices();
+    stop = from_the_start;
+    pool.setMonitor(Monitor().stopped_by(&stop));
+    for (int i = 0; i < 100; ++i) pool.countDraw();
+    const std::size_t made = pool.sliceCount();
+    CHECK((made == 0) == from_the_start);
+    stop = true;
+    for (int i = 0; i < 500; ++i) pool.countDraw();
+    CHECK(pool.sliceCount() == made);
+    ob::ScopedState<> state(setup.getSpaceInformation());
+    ompl::RNG random(3);
+    CHECK(pool.draw(setup.space(), state.get(), random) == !from_the_start);
   }
 }
 

@@ -11,8 +11,8 @@
 #include "apps/planner/command/report.h"
 #include "apps/planner/command/scene_view.h"
 #include "apps/planner/rigid/certified_path.h"
+#include "apps/planner/rigid/pose_file.h"
 #include "apps/planner/rigid_search/pose_metric.h"
-#include "apps/program/reports/exact_json.h"
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
 #include "nef/base/timing/time_limit.h"
@@ -21,12 +21,6 @@ namespace nef::planner {
 namespace {
 
 using nlohmann::json;
-
-json pose_json(const RigidPose& pose) {
-  json quaternion = json::array();
-  for (const Rational& x : pose.quaternion) quaternion.push_back(to_string(x));
-  return {{"position", exact_json(pose.position)}, {"quaternion", std::move(quaternion)}};
-}
 
 json motion_json(const MotionVerdict& verdict) {
   json result{{"status", status_name(verdict.status)}, {"touches", verdict.touches}, {"parts", verdict.cells}};

@@ -23,6 +23,7 @@
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
 #include "nef/base/timing/stopwatch.h"
+#include "nef/base/timing/time_limit.h"
 #include "nef/io/file_bytes.h"
 
 namespace nef::planner {
@@ -190,7 +191,9 @@ RigidAnswer run_rigid_ompl(const Scene& scene, const std::shared_ptr<const Motio
                            const std::string& planner, double seconds, const Monitor& monitor) {
   if (auto invalid = invalid_rigid_end(scene, *checker, monitor)) return *std::move(invalid);
   const QuietOmpl quiet;
+  const TimeLimit limit(seconds, monitor);
   SE3Planning setup(scene, checker);
+  setup.space().getSlices()->setMonitor(limit.monitor());
   setup.setPlanner(planner_for_turning(planner, setup.getSpaceInformation()));
   require_free_doubles(setup, scene.name);
   solve_watched(setup, seconds, monitor);

@@ -140,8 +140,7 @@ int run_rigid(const Arguments& a, const Scene& scene, const TimeLimit& limit) {
            [&] { print(a, answer, scene); },
            text,
            layers});
-  const bool no_answer = !a.ompl.empty() && answer.status == RigidAnswer::Status::kUndecided;
-  return no_answer ? 4 : exit_code(answer.status);
+  return exit_code(answer.status, !a.ompl.empty());
 }
 
 }  // namespace nef::planner

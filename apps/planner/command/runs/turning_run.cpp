@@ -32,11 +32,9 @@ using nlohmann::json;
 // Exactly, and for people.
 json turn_json(const Turn& turn, const TurningAxis& axis) {
   const Integer quarter = floor_of(turn);
-  json quaternion = json::array();
-  for (const Rational& x : axis.quaternion(turn)) quaternion.push_back(to_string(x));
   return {{"quarters", quarter.get_si()},
           {"half_tangent", to_string(Rational(turn - quarter))},
-          {"quaternion", std::move(quaternion)},
+          {"quaternion", exact_json(axis.quaternion(turn))},
           {"degrees", axis.degrees_of(turn)}};
 }
 
@@ -234,8 +232,7 @@ int run_turning(const Arguments& a, const Scene& scene, const nlohmann::json& wi
   tell(a, {"turning", scene.name, report, {{"op", watch.seconds(), {}}}, for_people, text, [&] {
              return turning_layers(answer, scene, question);
            }});
-  const bool no_answer = !a.ompl.empty() && answer.status == TurningAnswer::Status::kUndecided;
-  return no_answer ? 4 : exit_code(answer.status);
+  return exit_code(answer.status, !a.ompl.empty());
 }
 
 }  // namespace nef::planner

@@ -199,10 +199,7 @@ int check_assembly_proof(const Arguments& a, const Assembly& assembly) {
 // How parts turn: about a pivot, by the quaternions of poses, whose positions are in the path.
 json turning_json(const TurningWay& way) {
   json quaternions = json::array();
-  for (const RigidPose& pose : way.poses) {
-    json& quaternion = quaternions.emplace_back(json::array());
-    for (const Rational& x : pose.quaternion) quaternion.push_back(to_string(x));
-  }
+  for (const RigidPose& pose : way.poses) quaternions.push_back(exact_json(pose.quaternion));
   return {{"pivot", exact_json(way.pivot)}, {"quaternions", std::move(quaternions)}};
 }
 

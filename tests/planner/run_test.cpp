@@ -7,6 +7,7 @@
 
 #include "apps/program/reports/exact_json.h"
 #include "nef/construct/construct.h"
+#include "nef/io/mesh/mesh_writer.h"
 #include "nef/io/polyhedron_file.h"
 #include "nef/polyhedron.h"
 #include "nef/tiles/storage/tile_folder.h"
@@ -16,6 +17,7 @@
 #include "tests/planner/scene_helpers.h"
 #include "tests/support/paths.h"
 #include "tests/support/report_shape.h"
+#include "tests/support/shapes/machine_parts.h"
 
 namespace nef::planner::test {
 namespace {
@@ -64,9 +66,10 @@ TEST_CASE("where nothing is in the way, a path with clearance goes straight, too
 
 TEST_CASE("when --time is up, a question about translations is undecided") {
   const Folder folder;
-  // Read in a fraction of the time, also where other tests run; the sum takes several times as long.
-  const std::string slow = folder.write("slow.json", R"J({"robot": "ball(1/3, 60) - box(0,0,0, 1,1,1)",
-      "obstacles": ["ball(2, 60) - box(0,0,0, 3,3,3)"], "start": [5,0,0], "goal": [-5,0,0]})J");
+  // Read in a hundredth of a second; the sum takes several times as long as the limit.
+  write_mesh(folder.file("gear.off"), nef::test::extruded_part(nef::test::gear_outline(125, 1000, 100), 100));
+  const std::string slow = folder.write("slow.json", R"J({"robot": "gear.off", "obstacles": ["gear.off"],
+      "start": [5000,0,0], "goal": [-5000,0,0]})J");
   const Run late = planner(folder, slow + " --time 4 --json");
   CHECK(late.code == 5);
   const auto report = nlohmann::json::parse(late.out);

@@ -3,17 +3,18 @@
 """Sums, offsets, clearance and reach of machine parts: makes the parts, runs `minkowski` on each task, prints CPU seconds.
 
     bench/minkowski/parts.py [--bin DIR] [--cases NAME ...] [--unions auto queue ...] [--limit SECONDS] [--keep DIR]
+    bench/minkowski/parts.py --cgal --manifold PREFIX --openscad ...      peers beside, where they are there
+    bench/minkowski/parts.py --growth                                     offsets of parts that grow, with exponents
 
 Parts are turned, extruded and drilled, with coordinates in doubles as CAD programs write them; scans are bumpy balls.
 Processor seconds of the whole process on one thread, with reading and writing; `must` is what the project promises.
 """
-import argparse
 import math
 import os
 import sys
 import tempfile
 
-from stress import Bench, bumpy_ball, extrude, latitude_ball, write_off
+from stress import Bench, arguments_of, bumpy_ball, engines_of, exponent, extrude, write_off
 
 # Radius and height along a flange with a hub and a stepped bore: 40 triangles a side.
 FLANGE = [(10, 0), (14, 0), (14, 2), (16, 2), (16.5, 2.5), (16.5, 5), (16, 5.5), (13, 5.5), (12.5, 6), (12.5, 12), (13, 12.5),
@@ -117,7 +118,7 @@ class Parts(Bench):
 
     def command(self, operands, engine):
         command = super().command(operands, engine)
-        if "--penetration" in operands:  # an answer, and no set
+        if "--penetration" in operands:  # an answer, and no set; no peer gets here
             at = command.index("-o")
             del command[at:at + 2]
         return command
@@ -162,24 +163,58 @@ class Parts(Bench):
         }
 
 
+    def offsets(self):
+        """name -> how many triangles each part of a family has that grows, and a function that makes it and its ball.
+
+        The ball grows with a tooth, or the length of a side, as the offset of a part does that is scanned more finely."""
+        def extruded(n):
+            return [self.make(gear, f"grow_gear{n}.off", n), "--ball", f"{20000 / n:.6f},2"]
+
+        def of_turned(n):
+            return [self.make(turned, f"grow_flange{n}.off", FLANGE, n), "--ball", f"{60 / n:.6f},2"]
+
+        def of_scan(n):
+            return [self.make(bumpy_ball, f"grow_scan{n}.off", n, 3), "--ball", f"{3880 / n:.6f},2"]
+
+        return {
+            "extruded": ([4 * n for n in (250, 1000, 4000, 16000, 75000)], lambda size: extruded(size // 4)),
+            "turned": ([40 * n for n in (25, 100, 400, 1600, 7500)], lambda size: of_turned(size // 40)),
+            "scanned": ([2 * n * n for n in (23, 45, 90, 180, 388)], lambda size: of_scan(math.isqrt(size // 2))),
+        }
+
+
+def offset_growth(bench, limit):
+    """Seconds and memory over the triangles of a part."""
+    print(f"{'family':10} {'triangles':>9} {'CPU s':>8} {'peak MB':>8}", flush=True)
+    exponents = []
+    for name, (sizes, make) in bench.offsets().items():
+        points = []
+        for size in sizes:
+            seconds, peak, done, line = bench.run(make(size), "default", limit)
+            print(f"{name:10} {size:9} {seconds:8.2f} {peak:8.0f}  {line if done else 'not done: ' + line}", flush=True)
+            if done:
+                points.append((size, seconds))
+        exponents.append(f"{name}: seconds grow as triangles to the power {exponent(points):.2f}, "
+                         f"{exponent(points[-3:]):.2f} over the last three")
+    print("\n".join(exponents))
+
+
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--bin", default=os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "build", "release", "bin"))
-    parser.add_argument("--cases", nargs="*", help="run cases whose names hold one of these")
-    parser.add_argument("--unions", nargs="*", default=["default"], help="default, convolution, queue")
-    parser.add_argument("--limit", type=int, default=60, help="CPU seconds after which a run is ended")
-    parser.add_argument("--keep", help="leave the operands in this directory")
-    arguments = parser.parse_args()
+    arguments = arguments_of(__doc__, ["default"])
     with tempfile.TemporaryDirectory() as temporary:
         folder = arguments.keep or temporary
         os.makedirs(folder, exist_ok=True)
         bench = Parts(os.path.abspath(arguments.bin), os.path.abspath(folder))
+        if arguments.growth:
+            offset_growth(bench, arguments.limit)
+            return 0
+        engines = engines_of(bench, arguments)
         print(f"{'task':28} {'union':11} {'CPU s':>8} {'must':>5} {'peak MB':>8}")
         for name, (must, make) in bench.tasks().items():
             if arguments.cases and not any(part in name for part in arguments.cases):
                 continue
             operands = make()
-            for union in arguments.unions:
+            for union in engines:
                 seconds, peak, done, line = bench.run(operands, union, arguments.limit)
                 print(f"{name:28} {union:11} {seconds:8.2f} {must or '':>5} {peak:8.0f}  {line if done else 'not done: ' + line}",
                       flush=True)

@@ -3,7 +3,7 @@
 """Sums that make unions explode: makes the operands, runs `minkowski` on each, prints CPU seconds and peak memory.
 
     bench/minkowski/stress.py [--bin DIR] [--cases NAME ...] [--unions auto queue] [--limit SECONDS] [--keep DIR]
-    bench/minkowski/stress.py --cgal --manifold PREFIX ...      peers beside, where they are there
+    bench/minkowski/stress.py --cgal --manifold PREFIX --openscad ...      peers beside, where they are there
     bench/minkowski/stress.py --growth                          families that grow, with exponents
 
 Extrusions (stars, gears) have caps in common planes; a ball written in doubles is convex but for 10^-16; a cube minus a
@@ -104,6 +104,10 @@ def bumpy_ball(path, n, seed):
     write_off(path, vertices, faces)
 
 
+class NotForThisEngine(Exception):
+    """Raised for operands that a peer has no counterpart of."""
+
+
 class Bench:
     def __init__(self, binaries, folder):
         self.binaries, self.folder, self.manifold = binaries, folder, None
@@ -156,13 +160,32 @@ class Bench:
     def command(self, operands, engine):
         """The command line of an engine: a strategy of ours, or a peer."""
         if engine == "cgal":
-            return [os.path.join(self.binaries, "sum_peer"), "exact", *(self.mesh(operand, "off", "--exact") for operand in
-                                                                       operands), self.path("peer.nef3")]
+            return [os.path.join(self.binaries, "sum_peer"), "exact",
+                    *(self.mesh(operand, "off", "--exact") for operand in self.pair(operands)), self.path("peer.nef3")]
         if engine == "manifold":
-            return [self.manifold, *(self.mesh(operand, "stl") for operand in operands)]
+            return [self.manifold, *(self.mesh(operand, "stl") for operand in self.pair(operands))]
+        if engine == "openscad":
+            files = " ".join(f'import("{self.mesh(operand, "stl")}");' for operand in self.pair(operands))
+            with open(self.path("sum.scad"), "w", encoding="utf-8") as script:
+                script.write(f"minkowski() {{ {files} }}\n")
+            return ["openscad", "-o", self.path("peer.off"), self.path("sum.scad")]
         command = [os.path.join(self.binaries, "minkowski"), *operands, "-o", self.path("sum.nef"), "--threads", "1", "--report",
                    self.path("report.json")]
         return command + (["--union", engine] if engine != "default" else [])
+
+    def pair(self, operands):
+        """The two operands of a plain sum, as files for a peer, which has no option for balls, say."""
+        if len(operands) == 2 and not any(operand.startswith("--") for operand in operands):
+            return operands
+        if len(operands) == 3 and operands[1] == "--ball":
+            name = "peer_ball_" + operands[2].replace("/", "_").replace(",", "_") + ".off"
+            point = self.nef("hull(0,0,0)", "point.nef")
+            subprocess.run([os.path.join(self.binaries, "minkowski"), point, "--ball", operands[2], "-o", self.path(name),
+                            "-q"], check=True, capture_output=True)
+            return [operands[0], self.path(name)]
+        if len(operands) == 3 and operands[2] == "--negate-b":
+            return [operands[0], self.nef(f'scale(file("{operands[1]}"), -1)', "peer_negated.nef")]
+        raise NotForThisEngine
 
     def mesh(self, operand, extension, *options):
         """The operand as a mesh for a peer; .stl holds triangles only."""
@@ -176,7 +199,7 @@ class Bench:
     def run(self, operands, engine, limit):
         try:
             command = self.command(operands, engine)
-        except subprocess.CalledProcessError:
+        except (subprocess.CalledProcessError, NotForThisEngine):
             return 0.0, 0.0, False, "not for this engine"
         environment = dict(os.environ, OMP_NUM_THREADS="1")
         process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
@@ -245,17 +268,36 @@ def build_manifold_peer(binaries, prefix):
     return os.path.join(folder, "nef_bench_manifold_sum")
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+def arguments_of(description, unions):
+    """The command line that this program and parts.py have in common."""
+    parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", default=os.path.join(HERE, "..", "..", "build", "release", "bin"))
     parser.add_argument("--cases", nargs="*", help="run cases whose names hold one of these")
-    parser.add_argument("--unions", nargs="*", default=["default", "convolution", "queue"])
+    parser.add_argument("--unions", nargs="*", default=unions, help="default, convolution, queue")
     parser.add_argument("--growth", action="store_true", help="instead: families of operands that grow, with exponents")
     parser.add_argument("--cgal", action="store_true", help="CGAL's minkowski_sum_3 (the program sum_peer) beside ours")
     parser.add_argument("--manifold", metavar="PREFIX", help="the Manifold library installed there beside ours (doubles)")
+    parser.add_argument("--openscad", action="store_true", help="the program openscad beside ours")
     parser.add_argument("--limit", type=int, default=60, help="CPU seconds after which a run is ended")
     parser.add_argument("--keep", help="leave the operands in this directory")
-    arguments = parser.parse_args()
+    return parser.parse_args()
+
+
+def engines_of(bench, arguments):
+    """Our strategies and the peers that a command line asks for."""
+    engines = list(arguments.unions)
+    if arguments.cgal:
+        engines.append("cgal")
+    if arguments.manifold:
+        bench.manifold = build_manifold_peer(arguments.bin, arguments.manifold)
+        engines.append("manifold")
+    if arguments.openscad:
+        engines.append("openscad")
+    return engines
+
+
+def main():
+    arguments = arguments_of(__doc__, ["default", "convolution", "queue"])
     with tempfile.TemporaryDirectory() as temporary:
         folder = arguments.keep or temporary
         os.makedirs(folder, exist_ok=True)
@@ -263,12 +305,7 @@ def main():
         if arguments.growth:
             growth(bench, arguments.limit)
             return 0
-        engines = list(arguments.unions)
-        if arguments.cgal:
-            engines.append("cgal")
-        if arguments.manifold:
-            bench.manifold = build_manifold_peer(arguments.bin, arguments.manifold)
-            engines.append("manifold")
+        engines = engines_of(bench, arguments)
         print(f"{'case':28} {'union':8} {'CPU s':>8} {'peak MB':>8}")
         for name, make in bench.cases().items():
             if arguments.cases and not any(part in name for part in arguments.cases):

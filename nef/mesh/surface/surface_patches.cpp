@@ -208,10 +208,20 @@ void SurfacePatches::within(const Layout& layout, const Patch& patch, const Visi
   });
 }
 
-void SurfacePatches::between(const Layout& layout, std::uint32_t p, std::uint32_t q, const Visit& visit) const {
-  const Patch& small = layout.patches[layout.patches[p].size() > layout.patches[q].size() ? q : p];
-  const Patch& large = layout.patches[layout.patches[p].size() > layout.patches[q].size() ? p : q];
-  const std::vector<Box> boxes = triangle_boxes(layout, large);
+// The tree over the triangles of a patch.
+const BoxTree& SurfacePatches::PatchTrees::of(std::uint32_t patch) {
+  constexpr std::uint32_t kMany = 64;  // triangles: a tree over fewer is made anew for each pair
+  const bool is_kept = layout_.patches[patch].size() >= kMany;
+  BoxTree& tree = is_kept ? kept_[patch] : last_;
+  if (!is_kept || tree.size() == 0) tree = BoxTree(patches_.triangle_boxes(layout_, layout_.patches[patch]));
+  return tree;
+}
+
+void SurfacePatches::between(std::uint32_t p, std::uint32_t q, PatchTrees& trees, const Visit& visit) const {
+  const Layout& layout = trees.layout();
+  if (layout.patches[p].size() > layout.patches[q].size()) std::swap(p, q);
+  const Patch& small = layout.patches[p];
+  const Patch& large = layout.patches[q];
   constexpr std::uint32_t kFew = 64;  // pairs that are looked at faster than a tree is built
   const auto each_of_small = [&](const auto& look) {
     for (std::uint32_t t = small.first; t < small.last; ++t) {
@@ -220,6 +230,7 @@ void SurfacePatches::between(const Layout& layout, std::uint32_t p, std::uint32_
     }
   };
   if (small.size() * static_cast<std::uint64_t>(large.size()) <= kFew) {
+    const std::vector<Box> boxes = triangle_boxes(layout, large);
     each_of_small([&](const Box& own, const auto& meet) {
       for (std::uint32_t u = 0; u < boxes.size(); ++u) {
         if (own.overlaps(boxes[u])) meet(u);
@@ -227,12 +238,13 @@ void SurfacePatches::between(const Layout& layout, std::uint32_t p, std::uint32_
     });
     return;
   }
-  const BoxTree tree(boxes);
+  const BoxTree& tree = trees.of(q);
   each_of_small([&](const Box& own, const auto& meet) { tree.for_each_overlap(own, meet); });
 }
 
 // Patches with overlapping boxes.
-void SurfacePatches::visit_pair(const Layout& layout, std::uint32_t i, std::uint32_t j, const Visit& visit) const {
+void SurfacePatches::visit_pair(std::uint32_t i, std::uint32_t j, PatchTrees& trees, const Visit& visit) const {
+  const Layout& layout = trees.layout();
   const Patch& p = layout.patches[i];
   const Patch& q = layout.patches[j];
   if (p.size() == 1 && q.size() == 1) {
@@ -244,7 +256,7 @@ void SurfacePatches::visit_pair(const Layout& layout, std::uint32_t i, std::uint
   // The plane of the larger one first: that asks for the corners of the smaller.
   const bool ordered = p.size() >= q.size();
   if (!apart(layout, ordered ? i : j, ordered ? j : i) && !apart(layout, ordered ? j : i, ordered ? i : j)) {
-    between(layout, i, j, visit);
+    between(i, j, trees, visit);
   }
 }
 
@@ -447,12 +459,14 @@ void SurfacePatches::for_each_candidate(const Visit& visit) const {
   };
   std::vector<WideStars::Pair> pairs = WideStars(*this, faces_).pairs(limit, is_open, monitor_);
   if (pairs.size() < limit) {
-    for (const auto& [i, j] : pairs) visit_pair(faces_, i, j, ordered);
+    PatchTrees trees(*this, faces_);
+    for (const auto& [i, j] : pairs) visit_pair(i, j, trees, ordered);
     return;
   }
   pairs = {};
   const Layout layout = united();
-  WideStars(*this, layout).for_each_pair([&](std::uint32_t i, std::uint32_t j) { visit_pair(layout, i, j, ordered); });
+  PatchTrees trees(*this, layout);
+  WideStars(*this, layout).for_each_pair([&](std::uint32_t i, std::uint32_t j) { visit_pair(i, j, trees, ordered); });
 }
 
 }  // namespace nef

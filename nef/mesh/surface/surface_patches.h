@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "nef/base/monitor.h"
@@ -65,6 +66,21 @@ class SurfacePatches {
     [[nodiscard]] std::uint32_t triangle(std::uint32_t i) const { return order.empty() ? i : order[i]; }
   };
 
+  // Trees over the triangles of patches, kept for those with many: a ring meets the boxes of all walls inside of it.
+  class PatchTrees {
+   public:
+    PatchTrees(const SurfacePatches& patches, const Layout& layout) : patches_(patches), layout_(layout) {}
+    [[nodiscard]] const Layout& layout() const { return layout_; }
+    // Valid until the next call, if the patch has few triangles.
+    const BoxTree& of(std::uint32_t patch);
+
+   private:
+    const SurfacePatches& patches_;
+    const Layout& layout_;
+    std::unordered_map<std::uint32_t, BoxTree> kept_;
+    BoxTree last_;
+  };
+
   [[nodiscard]] Layout planar_faces() const;
   [[nodiscard]] Layout united() const;
   void add_cycles(Layout& layout, std::span<const std::uint32_t> cycles, std::span<const std::uint32_t> ends) const;
@@ -80,8 +96,8 @@ class SurfacePatches {
   [[nodiscard]] std::vector<std::uint32_t> terrains(const Layout& layout, const BoxTree& tree) const;
   [[nodiscard]] std::vector<std::uint32_t> degrees(const Layout& layout) const;
   void within(const Layout& layout, const Patch& patch, const Visit& visit) const;
-  void between(const Layout& layout, std::uint32_t p, std::uint32_t q, const Visit& visit) const;
-  void visit_pair(const Layout& layout, std::uint32_t p, std::uint32_t q, const Visit& visit) const;
+  void between(std::uint32_t p, std::uint32_t q, PatchTrees& trees, const Visit& visit) const;
+  void visit_pair(std::uint32_t p, std::uint32_t q, PatchTrees& trees, const Visit& visit) const;
 
   const MeshSurface& surface_;
   Monitor monitor_;

@@ -13,6 +13,7 @@
 #include "nef/mesh/surface/mesh_surface.h"
 #include "nef/polyhedron.h"
 #include "tests/support/paths.h"
+#include "tests/support/shapes/machine_parts.h"
 
 namespace nef {
 namespace {
@@ -476,6 +477,31 @@ TEST_CASE("A needle through one of two faces with two hundred corners is found")
   const auto crossings = of_kind(mesh, Kind::kSelfIntersection);
   CHECK(crossings.size() == 4);
   for (const MeshProblem& p : crossings) CHECK(p.faces[0] == last);
+}
+
+// The planes of wide rings run through the walls of the bore, so that each wall is asked against each ring.
+TEST_CASE("A wall of a turned part that is bent through its flange is found") {
+  constexpr std::uint32_t kSides = 800;
+  constexpr std::array<test::ProfilePoint, 8> kFlange{
+      {{5, -10}, {10, -10}, {10, 0}, {1000, 0}, {1000, 5}, {10, 5}, {10, 20}, {5, 20}}};
+  Mesh mesh = test::turned_part(kFlange, kSides, 0);
+  CHECK(check_mesh(mesh).empty());
+  constexpr std::uint32_t kBent = 7 * kSides + 300;  // at the upper end of the bore
+  for (std::size_t i = 0; i < 2; ++i) mesh.vertices[kBent][i] *= 10;
+  const std::vector<MeshProblem> problems = check_mesh(mesh, {.max_per_kind = 1000});
+  std::set<std::uint32_t> crossed;
+  for (const MeshProblem& p : problems) {
+    if (p.kind != Kind::kSelfIntersection) continue;
+    // One of both has the vertex.
+    for (const std::uint32_t f : p.faces) {
+      const auto face = mesh.face(f);
+      if (std::find(face.begin(), face.end(), kBent) == face.end()) crossed.insert(f);
+    }
+  }
+  // It goes through both rings and the hub's walls, near its own side.
+  for (const std::uint32_t ring : {1U, 2U, 4U, 5U}) {
+    CHECK(std::any_of(crossed.begin(), crossed.end(), [&](std::uint32_t f) { return f / (2 * kSides) == ring; }));
+  }
 }
 
 TEST_CASE("Real meshes: shuffled faces are the only trouble of cube-shuffled, sphere is clean") {

@@ -168,7 +168,8 @@ class Parts(Bench):
 
         The ball grows with a tooth, or the length of a side, as the offset of a part does that is scanned more finely."""
         def extruded(n):
-            return [self.make(gear, f"grow_gear{n}.off", n), "--ball", f"{20000 / n:.6f},2"]
+            outline = gear_outline(n // 5, 1000.0, 30000 / n)  # teeth as deep as they are apart
+            return [self.make(extrude, f"grow_gear{n}.off", outline, 100.0), "--ball", f"{20000 / n:.6f},2"]
 
         def of_turned(n):
             return [self.make(turned, f"grow_flange{n}.off", FLANGE, n), "--ball", f"{60 / n:.6f},2"]

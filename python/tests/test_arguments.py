@@ -28,7 +28,7 @@ REFUSED = [
     (lambda: CUBE.volume(1), "volume() was called with too many arguments, 1: volume()"),
     (lambda: CUBE.isdisjoint("part.off"), "isdisjoint(): other must be a nef.Polyhedron, not 'part.off' (str)"),
     (lambda: nef.Polyhedron.volume("part.off"), "volume() is a method of a nef.Polyhedron, not of 'part.off' (str)"),
-    (lambda: nef.TiledPolyhedron(CUBE, limit="all"), "TiledPolyhedron(): limit must be an int, not 'all' (str)"),
+    (lambda: nef.TiledPolyhedron(CUBE, limit="all"), "TiledPolyhedron(): limit must be an int or None, not 'all' (str)"),
 ]
 
 

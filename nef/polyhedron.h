@@ -6,11 +6,14 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "nef/base/monitor.h"
@@ -33,6 +36,21 @@ class Polyhedron {
   /// Takes over a synthesized complex.
   explicit Polyhedron(Complex&& complex);
 
+  /// What a step of a loop does with one set after the other.
+  enum class Step : std::uint8_t { kUnite, kSubtract };
+
+  /// unite(a, b) or subtract(a, b) for a loop that adds small sets to a large one or takes them away: the result waits
+  /// until somebody looks at it, and is computed then together with the steps before it that wait. n such steps cost
+  /// about as much as one with the union of the n small sets, instead of n copies of a; their items may be numbered in
+  /// another order. Nothing, if the step is better computed at once: b has more than an eighth of a's vertices, or
+  /// those of all that waits would be more than a has. O(1) if both are computed.
+  static std::optional<Polyhedron> waiting(Step kind, const Polyhedron& a, const Polyhedron& b);
+
+  /// True if steps wait. Any look at the set computes them, on the thread that looks.
+  [[nodiscard]] bool waits() const;
+  /// Computes them on the threads of `monitor`, which may stop it: then they wait as before.
+  void compute(const Monitor& monitor) const;
+
   [[nodiscard]] const Complex& complex() const;
   /// The complex out of a set that is given up: moved if no other set shares it, else copied.
   [[nodiscard]] Complex take_complex() &&;
@@ -53,7 +71,13 @@ class Polyhedron {
 
  private:
   struct Body;
-  std::shared_ptr<const Body> body_;
+  class WaitingStep;
+
+  explicit Polyhedron(std::shared_ptr<const Body> body) : body_(std::move(body)) {}
+  [[nodiscard]] const std::shared_ptr<const Body>& body(const Monitor& monitor = {}) const;
+
+  std::shared_ptr<const Body> body_;  // null for the empty set, and while steps wait
+  std::shared_ptr<const WaitingStep> step_;
 };
 
 // Boolean operations (thesis chapter 5): exact, total, O((n + k) log n) for n items and k

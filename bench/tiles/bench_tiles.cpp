@@ -6,7 +6,8 @@
 // nef_bench_tiles chain [LEVEL [STEPS]] [--limit N] [--size D] [--every]: many boxes one after the other, plain, in
 // tiles, and in tiles where that pays; with --every the ratio at each step.
 // nef_bench_tiles fold [LEVEL [COUNT]] [--limit N] [--size D]: such boxes off a sphere, all at once and in tiles.
-// nef_bench_tiles openings [COUNT]: square openings off a slab, all at once, one after the other, and so in tiles.
+// nef_bench_tiles openings [COUNT]: square openings off a slab, all at once, one after the other by subtract() and by
+// operators, whose steps wait until somebody looks, and so in tiles.
 // nef_bench_tiles union [COUNT] [--size D] [--limit N] [--threads N] [--memory MB]: random tetrahedra, each of which
 // meets a few others; pairs smallest first, unite_all, and region by region. With --stream the latter alone, each piece
 // made when it is needed; with --no-tiles all but that, and with --only unite_all alone, both once. CPU seconds of one
@@ -28,6 +29,7 @@
 #include "nef/base/timing/stopwatch.h"
 #include "nef/io/native/native_binary.h"
 #include "nef/operation/canonical_order.h"
+#include "nef/operators.h"
 #include "nef/tiles/import/union_in_tiles.h"
 #include "nef/tiles/step_sequence.h"
 #include "nef/tiles/storage/tile_store.h"
@@ -242,6 +244,11 @@ void openings(int count, const Tiling& tiling) {
   const double plain = seconds_of([&] {
     for (const Polyhedron& box : boxes) one_by_one = subtract(one_by_one, box);
   });
+  Polyhedron waited = slab;
+  const double operators = seconds_of([&] {
+    for (const Polyhedron& box : boxes) waited = waited - box;
+    waited.compute({});
+  });
   Polyhedron glued;
   const double tiled = seconds_of([&] {
     TiledPolyhedron in_tiles(slab, tiling);
@@ -254,13 +261,17 @@ void openings(int count, const Tiling& tiling) {
     for (const Polyhedron& box : boxes) steps.apply(BooleanOperator::kDifference, box);
     chosen = steps.result();
   });
-  const bool same = equal(one_by_one, at_once) && equal(glued, at_once) && equal(chosen, at_once);
-  std::printf(
-      "%d openings: at once %.3f s; one by one %.3f s (x %.2f); in tiles %.3f s (x %.2f); in tiles where that pays "
-      "%.3f "
-      "s (x %.2f); %s\n",
-      count, together, plain, plain / together, tiled, tiled / together, where_it_pays, where_it_pays / together,
-      same ? "the same" : "DIFFERENT");
+  const bool same =
+      equal(one_by_one, at_once) && equal(waited, at_once) && equal(glued, at_once) && equal(chosen, at_once);
+  std::printf("%d openings: at once %.3f s", count, together);
+  const auto tell = [&](const char* what, double seconds) {
+    std::printf("; %s %.3f s (x %.2f)", what, seconds, seconds / together);
+  };
+  tell("one by one", plain);
+  tell("by operators", operators);
+  tell("in tiles", tiled);
+  tell("in tiles where that pays", where_it_pays);
+  std::printf("; %s\n", same ? "the same" : "DIFFERENT");
 }
 
 void fold(int level, int count, double size, const Tiling& tiling) {

@@ -1,93 +1,192 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// First each corner is told its items, then each vertex pairs its edges with those of its neighbours, then each face
+// lists its facet. Corners, edges and faces are written by one thread each, whichever it is.
 #include "nef/construct/face_links.h"
 
 #include <algorithm>
+#include <atomic>
+#include <utility>
+#include <vector>
+
+#include "nef/base/threads/parallel.h"
 
 namespace nef {
+namespace {
 
-// Svertex i leads along the side after corner i, and shalfedge 2 i is the half of its arc that leaves it. A facet is
-// run around by those whose planes are not flipped.
-void FaceLinks::note(const VertexRecord& record, std::span<const FaceCorner> ring, std::span<const PlaneId> planes) {
-  for (std::uint32_t i = 0; i < ring.size(); ++i) {
-    svertices_[ring[i].position] = record.svertices + i;
-    shalfedges_[ring[i].position] = record.shalfedges + (2 * i + (planes[i].flipped() ? 1U : 0U));
+constexpr std::size_t kBlock = 4096;
+
+class FaceLinks {
+ public:
+  FaceLinks(const Complex& made, const PlainVertices& plain, const Monitor& monitor)
+      : made_(made),
+        plain_(plain),
+        monitor_(for_vertices(made.vertex_count(), monitor)),
+        shalfedges_(plain.corners.size()) {}
+
+  KnownLinks run() {
+    for_points([this](std::uint32_t v) { note(v); });
+    pair_edges();
+    list_facets();
+    sort_facets();
+    list_loose_corners();
+    return std::move(known_);
   }
-  noted_ += ring.size();
+
+ private:
+  // Facets of consecutive faces.
+  struct Facets {
+    std::vector<Facet> facets;
+    std::vector<std::uint32_t> ends;  // of their cycles
+    std::vector<SHalfedgeId> corners;
+  };
+
+  [[nodiscard]] std::span<const FaceCorner> corners_of(std::uint32_t v) const {
+    return plain_.corners.subspan(plain_.first[v], plain_.first[v + 1] - plain_.first[v]);
+  }
+
+  template <typename Body>
+  void for_points(const Body& body) const {
+    parallel_for_ranges(plain_.made.size(), kBlock, monitor_, [&](std::size_t first, std::size_t last, const Monitor&) {
+      for (auto v = static_cast<std::uint32_t>(first); v < last; ++v) body(v);
+    });
+  }
+
+  void note(std::uint32_t v);
+  std::size_t pair_edges_of(std::uint32_t v);
+  void pair_edges();
+  void list_facets();
+  void list_facet(std::uint32_t face, Facets& out) const;
+  void join(const Facets& block);
+  void sort_facets();
+  void list_loose_corners();
+
+  const Complex& made_;
+  const PlainVertices& plain_;
+  Monitor monitor_;
+  // Of each corner, in the order of the faces, the one that runs around the facet of the face; not valid if the corner
+  // is at no plain vertex.
+  std::vector<SHalfedgeId> shalfedges_;
+  KnownLinks known_;
+};
+
+// Shalfedge 2 i is the half of corner i's arc that leaves its svertex. A facet is run around by those whose planes are
+// not flipped.
+void FaceLinks::note(std::uint32_t v) {
+  if (!plain_.made[v].valid()) return;
+  SHalfedgeId leaving = made_.vertices[plain_.made[v]].shalfedges;
+  for (const FaceCorner& corner : corners_of(v)) {
+    shalfedges_[corner.position] = leaving + (plain_.faces.plane[corner.face].flipped() ? 1U : 0U);
+    leaving = leaving + 2;
+  }
 }
 
-KnownLinks FaceLinks::links(const Complex& made, const SolidFaces& faces, std::span<const FaceCorner> corners,
-                            std::span<const std::uint32_t> first) const {
-  KnownLinks known;
-  pair_edges(made, corners, first, known);
-  list_facets(made, faces, known);
-  return known;
-}
-
-void FaceLinks::pair_edges(const Complex& made, std::span<const FaceCorner> corners,
-                           std::span<const std::uint32_t> first, KnownLinks& known) const {
-  known.twin.assign(made.svertex_count(), HalfedgeId());
+// Svertex i leads along the side after corner i. Plain vertices have one side to each neighbour.
+std::size_t FaceLinks::pair_edges_of(std::uint32_t v) {
+  if (!plain_.made[v].valid()) return 0;
   std::size_t paired = 0;
-  for (std::uint32_t v = 0; v + 1 < first.size(); ++v) {
-    for (const FaceCorner& corner : corners.subspan(first[v], first[v + 1] - first[v])) {
-      const std::uint32_t w = corner.next;
-      const HalfedgeId there = svertices_[corner.position];
-      if (w < v || !there.valid()) continue;
-      // Plain vertices have one side to each neighbour.
-      for (const FaceCorner& other : corners.subspan(first[w], first[w + 1] - first[w])) {
-        if (other.next != v) continue;
-        const HalfedgeId back = svertices_[other.position];
-        if (!back.valid()) continue;
-        known.twin[there] = back;
-        known.twin[back] = there;
-        paired += 2;
+  HalfedgeId there = made_.vertices[plain_.made[v]].svertices;
+  for (const FaceCorner& corner : corners_of(v)) {
+    const std::uint32_t w = corner.next;
+    if (w > v && plain_.made[w].valid()) {
+      HalfedgeId back = made_.vertices[plain_.made[w]].svertices;
+      for (const FaceCorner& other : corners_of(w)) {
+        if (other.next == v) {
+          known_.twin[there] = back;
+          known_.twin[back] = there;
+          paired += 2;
+        }
+        back = back + 1;
       }
     }
+    there = there + 1;
   }
-  if (paired == made.svertex_count()) return;
-  for (const VertexId v : made.vertex_ids()) {
-    const IdRange<HalfedgeId> here = made.halfedges(v);
-    if (std::any_of(here.begin(), here.end(), [&](HalfedgeId h) { return !known.twin[h].valid(); })) {
-      known.loose_vertices.push_back(v);
+  return paired;
+}
+
+void FaceLinks::pair_edges() {
+  known_.twin.assign(made_.svertex_count(), HalfedgeId());
+  std::atomic<std::size_t> paired = 0;
+  parallel_for_ranges(plain_.made.size(), kBlock, monitor_, [&](std::size_t first, std::size_t last, const Monitor&) {
+    std::size_t here = 0;
+    for (auto v = static_cast<std::uint32_t>(first); v < last; ++v) here += pair_edges_of(v);
+    paired += here;
+  });
+  if (paired == made_.svertex_count()) return;
+  for (const VertexId v : made_.vertex_ids()) {
+    const IdRange<HalfedgeId> here = made_.halfedges(v);
+    if (std::any_of(here.begin(), here.end(), [&](HalfedgeId h) { return !known_.twin[h].valid(); })) {
+      known_.loose_vertices.push_back(v);
     }
   }
 }
 
-void FaceLinks::list_facets(const Complex& made, const SolidFaces& faces, KnownLinks& known) const {
-  known.facets.reserve(faces.plane.size());
-  known.cycle_begin.reserve(faces.plane.size() + 1);
-  known.corners.reserve(faces.corners.size());
-  for (std::uint32_t f = 0; f < faces.plane.size(); ++f) {
-    const auto ring = std::span(shalfedges_).subspan(faces.begin[f], faces.begin[f + 1] - faces.begin[f]);
-    if (!std::all_of(ring.begin(), ring.end(), [](SHalfedgeId corner) { return corner.valid(); })) continue;
-    const auto base = static_cast<std::ptrdiff_t>(known.corners.size());
-    known.corners.insert(known.corners.end(), ring.begin(), ring.end());
-    const auto cycle = known.corners.begin() + base;
-    if (faces.plane[f].flipped()) std::reverse(cycle, known.corners.end());
-    std::rotate(cycle, std::min_element(cycle, known.corners.end()), known.corners.end());
-    Facet& facet = known.facets.emplace_back();
-    facet.plane = made.shalfedge_plane[*cycle];
-    facet.first_cycle = CycleId{known.cycle_begin.size() - 1};
-    facet.cycle_count = 1;
-    known.cycle_begin.push_back(static_cast<std::uint32_t>(known.corners.size()));
+void FaceLinks::list_facets() {
+  const SolidFaces& faces = plain_.faces;
+  known_.facets.reserve(faces.plane.size());
+  known_.cycle_begin.reserve(faces.plane.size() + 1);
+  known_.corners.reserve(faces.corners.size());
+  std::vector<Facets> blocks((faces.plane.size() + kBlock - 1) / kBlock);
+  parallel_for_ranges(faces.plane.size(), kBlock, monitor_, [&](std::size_t first, std::size_t last, const Monitor&) {
+    for (auto f = static_cast<std::uint32_t>(first); f < last; ++f) list_facet(f, blocks[first / kBlock]);
+    if (monitor_.threads() == 1) join(std::exchange(blocks[first / kBlock], {}));
+  });
+  for (const Facets& block : blocks) join(block);
+}
+
+void FaceLinks::list_facet(std::uint32_t face, Facets& out) const {
+  const SolidFaces& faces = plain_.faces;
+  const auto ring = std::span(shalfedges_).subspan(faces.begin[face], faces.begin[face + 1] - faces.begin[face]);
+  if (!std::all_of(ring.begin(), ring.end(), [](SHalfedgeId corner) { return corner.valid(); })) return;
+  const auto base = static_cast<std::ptrdiff_t>(out.corners.size());
+  out.corners.insert(out.corners.end(), ring.begin(), ring.end());
+  const auto cycle = out.corners.begin() + base;
+  if (faces.plane[face].flipped()) std::reverse(cycle, out.corners.end());
+  std::rotate(cycle, std::min_element(cycle, out.corners.end()), out.corners.end());
+  Facet& facet = out.facets.emplace_back();
+  facet.plane = made_.shalfedge_plane[*cycle];
+  facet.cycle_count = 1;
+  out.ends.push_back(static_cast<std::uint32_t>(out.corners.size()));
+}
+
+void FaceLinks::join(const Facets& block) {
+  const auto before = static_cast<std::uint32_t>(known_.corners.size());
+  for (std::size_t i = 0; i < block.facets.size(); ++i) {
+    known_.facets.push_back(block.facets[i]);
+    known_.facets.back().first_cycle = CycleId{known_.cycle_begin.size() - 1};
+    known_.cycle_begin.push_back(before + block.ends[i]);
   }
+  known_.corners.insert(known_.corners.end(), block.corners.begin(), block.corners.end());
+}
+
+void FaceLinks::sort_facets() {
   const auto row_less = [](const Facet& a, const Facet& b) { return a.plane.row() < b.plane.row(); };
-  if (!std::is_sorted(known.facets.begin(), known.facets.end(), row_less)) {
-    std::stable_sort(known.facets.begin(), known.facets.end(), row_less);
+  if (!std::is_sorted(known_.facets.begin(), known_.facets.end(), row_less)) {
+    std::stable_sort(known_.facets.begin(), known_.facets.end(), row_less);
   }
-  for (std::size_t i = 1; i < known.facets.size(); ++i) {
-    const std::uint32_t row = known.facets[i].plane.row();
-    if (known.facets[i - 1].plane.row() != row) continue;
-    if (known.mixed_rows.empty() || known.mixed_rows.back() != row) known.mixed_rows.push_back(row);
+  for (std::size_t i = 1; i < known_.facets.size(); ++i) {
+    const std::uint32_t row = known_.facets[i].plane.row();
+    if (known_.facets[i - 1].plane.row() != row) continue;
+    if (known_.mixed_rows.empty() || known_.mixed_rows.back() != row) known_.mixed_rows.push_back(row);
   }
-  if (2 * known.corners.size() == made.shalfedge_count() && made.sloops.empty()) return;
-  std::vector<bool> is_known(made.shalfedge_count(), false);
-  for (const SHalfedgeId corner : known.corners) is_known[corner.index()] = true;
-  for (const SHalfedgeId e : made.shalfedge_ids()) {
-    if (!is_known[e.index()] && !made.shalfedge_plane[e].flipped()) known.loose_corners.push_back(e);
+}
+
+void FaceLinks::list_loose_corners() {
+  if (2 * known_.corners.size() == made_.shalfedge_count() && made_.sloops.empty()) return;
+  std::vector<bool> is_known(made_.shalfedge_count(), false);
+  for (const SHalfedgeId corner : known_.corners) is_known[corner.index()] = true;
+  for (const SHalfedgeId e : made_.shalfedge_ids()) {
+    if (!is_known[e.index()] && !made_.shalfedge_plane[e].flipped()) known_.loose_corners.push_back(e);
   }
-  for (const VertexId v : made.vertex_ids()) {
-    if (made.vertices[v].sloops != made.vertices[v.next()].sloops) known.loose_isolated.push_back(v);
+  for (const VertexId v : made_.vertex_ids()) {
+    if (made_.vertices[v].sloops != made_.vertices[v.next()].sloops) known_.loose_isolated.push_back(v);
   }
+}
+
+}  // namespace
+
+KnownLinks face_links(const Complex& made, const PlainVertices& plain, const Monitor& monitor) {
+  return FaceLinks(made, plain, monitor).run();
 }
 
 }  // namespace nef

@@ -31,7 +31,7 @@ bool PlainRing::read(std::uint32_t point, std::span<const FaceCorner> corners) {
 }
 
 // Svertex i leads along the edge of corner i, shalfedge 2 i is the half of that corner's arc that leaves it.
-bool PlainRing::write(const SolidMarks& marks, SphereMapBuffer& map) const {
+void PlainRing::write(const SolidMarks& marks, SphereMapBuffer& map) const {
   const auto n = static_cast<std::uint32_t>(size_);
   const auto mark_of = [&](std::uint32_t i) { return planes_[i].flipped() ? marks.flipped_boundary : marks.boundary; };
   map.clear();
@@ -44,7 +44,6 @@ bool PlainRing::write(const SolidMarks& marks, SphereMapBuffer& map) const {
     const std::uint32_t ahead = i + 1 == n ? 0 : i + 1;
     const std::uint32_t behind = i == 0 ? n - 1 : i - 1;
     const LabelId mark = mark_of(i);
-    if (mark == marks.outside && mark == marks.inside) return false;
     if (mark != map.mark) map.mark = marks.boundary;
     SVertex& v = map.svertices.emplace_back();
     v.p = edges_[i].p;
@@ -58,7 +57,6 @@ bool PlainRing::write(const SolidMarks& marks, SphereMapBuffer& map) const {
     map.sfaces.push_back({side, 1, side == 0 ? marks.outside : marks.inside});
     map.entries.push_back({SFaceEntry::Kind::kCycle, side});
   }
-  return true;
 }
 
 // From each corner on to the one that leaves along the edge where it arrives. False if this is not one way through all.
@@ -80,20 +78,20 @@ bool PlainRing::order(std::span<const FaceCorner> corners) {
   return true;
 }
 
-void PlainRing::learn(VertexId vertex) {
-  if (2 * (known_count_ + 1) > known_.size()) {
+void KnownRings::learn(std::uint64_t bits, VertexId vertex) {
+  if (2 * (count_ + 1) > known_.size()) {
     constexpr std::size_t kFirst = 32;
     const std::vector<Known> before = std::exchange(known_, std::vector<Known>(std::max(kFirst, 2 * known_.size())));
     for (const Known& known : before) {
       if (known.bits != 0) known_[place_of(known.bits)] = known;
     }
   }
-  known_[place_of(bits_)] = {bits_, vertex};
-  ++known_count_;
+  known_[place_of(bits)] = {bits, vertex};
+  ++count_;
 }
 
 // Where these bits are, or would be.
-std::size_t PlainRing::place_of(std::uint64_t bits) const {
+std::size_t KnownRings::place_of(std::uint64_t bits) const {
   const std::size_t last = known_.size() - 1;
   std::size_t place = (bits * 0x9e3779b97f4a7c15ULL) >> 32U & last;
   while (known_[place].bits != 0 && known_[place].bits != bits) place = (place + 1) & last;

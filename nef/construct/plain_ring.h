@@ -26,6 +26,8 @@ struct FaceCorner {
 /// the edge has the direction of the product of the normals. Vertices with the same bits have the same pattern.
 class PlainRing {
  public:
+  static constexpr std::size_t kMost = 20;  ///< edges whose bits fit into a word
+
   /// The faces must outlive this object.
   explicit PlainRing(const SolidFaces& faces) : faces_(faces) {}
 
@@ -33,20 +35,15 @@ class PlainRing {
   /// is a long one, or if doubles can not tell the directions of its edges. O(n^2) for the few corners of a vertex.
   [[nodiscard]] bool read(std::uint32_t point, std::span<const FaceCorner> corners);
 
-  /// The corners of the vertex that was read, in the order of the ring.
+  /// The corners of the vertex that was read, in the order of the ring. Read again in this order, they make the same
+  /// ring.
   [[nodiscard]] std::span<const FaceCorner> corners() const { return std::span(ring_).first(size_); }
 
-  /// The planes of the corners of the vertex that was read, in the order of the ring.
-  [[nodiscard]] std::span<const PlaneId> planes() const { return std::span(planes_).first(size_); }
+  /// The bits of the vertex that was read; never 0.
+  [[nodiscard]] std::uint64_t bits() const { return bits_; }
 
-  /// The sphere map of the vertex that was read, as drawing it would make it; false if the marks hide a part of it.
-  [[nodiscard]] bool write(const SolidMarks& marks, SphereMapBuffer& map) const;
-
-  /// A vertex that was learned with the same bits, if there is one.
-  [[nodiscard]] VertexId like() const { return known_.empty() ? VertexId() : known_[place_of(bits_)].vertex; }
-
-  /// The vertex that was read has become this one of the complex.
-  void learn(VertexId vertex);
+  /// The sphere map of the vertex that was read, as drawing it would make it, if the marks hide no part of it.
+  void write(const SolidMarks& marks, SphereMapBuffer& map) const;
 
  private:
   // Unflipped planes whose normals have the direction of an edge for their product, or the second one flipped.
@@ -54,16 +51,7 @@ class PlainRing {
     PlaneId p, q;
   };
 
-  // A vertex that was learned.
-  struct Known {
-    std::uint64_t bits = 0;  // never 0 of a vertex
-    VertexId vertex;
-  };
-
-  static constexpr std::size_t kMost = 20;  // edges whose bits fit into a word
-
   bool order(std::span<const FaceCorner> corners);
-  [[nodiscard]] std::size_t place_of(std::uint64_t bits) const;
   [[nodiscard]] std::optional<int> direction(std::uint32_t from, std::uint32_t to, PlaneId first, PlaneId second) const;
 
   const SolidFaces& faces_;
@@ -73,8 +61,29 @@ class PlainRing {
   std::array<EdgePlanes, kMost> edges_;  // to the next points of the ring
   std::size_t size_ = 0;
   std::uint64_t bits_ = 0;
+};
+
+/// Vertices of a complex by the bits of their rings.
+class KnownRings {
+ public:
+  /// A vertex that was learned with these bits, if there is one.
+  [[nodiscard]] VertexId like(std::uint64_t bits) const {
+    return known_.empty() ? VertexId() : known_[place_of(bits)].vertex;
+  }
+
+  /// The vertex has these bits, which no other one was learned with.
+  void learn(std::uint64_t bits, VertexId vertex);
+
+ private:
+  struct Known {
+    std::uint64_t bits = 0;
+    VertexId vertex;
+  };
+
+  [[nodiscard]] std::size_t place_of(std::uint64_t bits) const;
+
   std::vector<Known> known_;  // open addressing, at most half full
-  std::size_t known_count_ = 0;
+  std::size_t count_ = 0;
 };
 
 }  // namespace nef

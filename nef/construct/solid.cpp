@@ -15,6 +15,7 @@
 
 #include "nef/base/error.h"
 #include "nef/base/fast_path.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/boolean/overlay_complexes.h"
 #include "nef/construct/face_links.h"
 #include "nef/construct/plain_ring.h"
@@ -52,13 +53,14 @@ class SolidBuilder {
 
   std::variant<Complex, Defect> run() {
     ComplexBuilder result(f_.planes, monitor_);
-    std::optional<FaceLinks> told = add_vertices(result);
+    collect_corners();
+    reserve(result);
+    const std::size_t plain_corners = add_vertices(result);
     std::optional<KnownLinks> known;
-    if (told->are_many() && !result.has_idle_box()) {
+    if (2 * plain_corners > corners_.size() && !result.has_idle_box()) {
       result.drop_idle_planes();
-      known = told->links(result.so_far(), f_, corners_, first_);
+      known = face_links(result.so_far(), {f_, corners_, first_, made_}, monitor_);
     }
-    told.reset();
     // Links need room.
     f_.points = PointTable();
     f_.names = {};
@@ -67,6 +69,7 @@ class SolidBuilder {
     f_.corners = {};
     corners_ = {};
     first_ = {};
+    made_ = {};
     return known ? result.try_finish(marks_.outside, *std::move(known)) : result.try_finish(marks_.outside);
   }
 
@@ -80,37 +83,77 @@ class SolidBuilder {
     LabelId mark = kOutside;  // none yet
   };
 
-  std::optional<FaceLinks> add_vertices(ComplexBuilder& result) {
-    collect_corners();
-    reserve(result);
-    PlainRing ring(f_);
-    FaceLinks links(f_.corners.size());
-    const auto note = [&] {
-      const Complex& made = result.so_far();
-      links.note(made.vertices[VertexId{made.vertex_count() - 1}], ring.corners(), ring.planes());
-    };
-    for (std::uint32_t v = 0; v < f_.points.size(); ++v) {
-      const std::span<const FaceCorner> corners = std::span(corners_).subspan(first_[v], first_[v + 1] - first_[v]);
-      if (corners.empty()) continue;
-      if (kFastPaths && maps_ == SphereMaps::kRead && ring.read(v, corners)) {
-        if (const VertexId like = ring.like(); like.valid()) {
-          if (result.append_like(f_.points, PointId{v}, like, ring.planes())) note();
-          continue;
-        }
-        if (ring.write(marks_, map_)) {
-          if (result.add(f_.points, PointId{v}, map_.view())) {
-            ring.learn(VertexId{result.so_far().vertex_count() - 1});
-            note();
-          }
-          continue;
-        }
+  [[nodiscard]] std::span<FaceCorner> corners_of(std::uint32_t v) {
+    return std::span(corners_).subspan(first_[v], first_[v + 1] - first_[v]);
+  }
+
+  // Where marks are such that parts of a sphere map may be hidden, all are drawn.
+  [[nodiscard]] bool reads_maps() const {
+    const bool hides = marks_.outside == marks_.inside &&
+                       (marks_.boundary == marks_.inside || marks_.flipped_boundary == marks_.inside);
+    return kFastPaths && maps_ == SphereMaps::kRead && !hides;
+  }
+
+  // Puts the corners of plain vertices in the order of their ring.
+  void read_rings(const Monitor& monitor) {
+    if (!reads_maps()) return;
+    constexpr std::size_t kBlock = 1024;
+    parallel_for_ranges(bits_.size(), kBlock, monitor, [&](std::size_t first, std::size_t last, const Monitor&) {
+      PlainRing ring(f_);
+      for (auto v = static_cast<std::uint32_t>(first); v < last; ++v) {
+        const std::span<FaceCorner> corners = corners_of(v);
+        if (!ring.read(v, corners)) continue;
+        std::copy(ring.corners().begin(), ring.corners().end(), corners.begin());
+        bits_[v] = ring.bits();
       }
-      draw(v, corners);
-      drawing_.sort_around_nodes(f_.planes, monitor_);
-      check_sides(v);
-      result.add_sorted(f_.points, PointId{v}, drawing_);
+    });
+  }
+
+  // Returns how many corners are at plain vertices.
+  std::size_t add_vertices(ComplexBuilder& result) {
+    const auto count = static_cast<std::uint32_t>(f_.points.size());
+    const Monitor monitor = for_vertices(count, monitor_);
+    bits_.assign(count, 0);
+    made_.assign(count, VertexId());
+    std::size_t plain_corners = 0;
+    read_rings(monitor);
+    for (std::uint32_t v = 0; v < count; ++v) {
+      const std::span<const FaceCorner> corners = corners_of(v);
+      if (corners.empty()) continue;
+      if (bits_[v] == 0) {
+        add_drawn(result, v, corners);
+      } else if (add_plain(result, v, corners)) {
+        plain_corners += corners.size();
+      }
     }
-    return links;
+    return plain_corners;
+  }
+
+  void add_drawn(ComplexBuilder& result, std::uint32_t v, std::span<const FaceCorner> corners) {
+    draw(v, corners);
+    drawing_.sort_around_nodes(f_.planes, monitor_);
+    check_sides(v);
+    result.add_sorted(f_.points, PointId{v}, drawing_);
+  }
+
+  // False if nothing is added, since something was wrong before.
+  bool add_plain(ComplexBuilder& result, std::uint32_t v, std::span<const FaceCorner> corners) {
+    const VertexId next{result.so_far().vertex_count()};
+    const VertexId like = known_.like(bits_[v]);
+    if (like.valid()) {
+      std::array<PlaneId, PlainRing::kMost> planes;
+      for (std::size_t i = 0; i < corners.size(); ++i) planes[i] = f_.plane[corners[i].face];
+      if (!result.append_like(f_.points, PointId{v}, like, std::span(planes).first(corners.size()))) return false;
+    } else {
+      PlainRing ring(f_);
+      const bool is_plain = ring.read(v, corners);
+      NEF_ASSERT(is_plain && ring.bits() == bits_[v]);
+      ring.write(marks_, map_);
+      if (!result.add(f_.points, PointId{v}, map_.view())) return false;
+      known_.learn(bits_[v], next);
+    }
+    made_[v] = next;
+    return true;
   }
 
   // As for faces that are all facets, which is as much as there can be of each.
@@ -262,7 +305,10 @@ class SolidBuilder {
   std::vector<Spoke> spokes_;
   std::unordered_map<std::uint32_t, std::uint32_t> spoke_at_;  // by where they lead, if there are many
   Arrangement drawing_;
-  SphereMapBuffer map_;  // of the vertex at hand, where it need not be drawn
+  std::vector<std::uint64_t> bits_;  // of each plain vertex (PlainRing), 0 of others
+  std::vector<VertexId> made_;       // of each plain vertex
+  KnownRings known_;                 // those that were made
+  SphereMapBuffer map_;              // of the vertex at hand, where it need not be drawn
 };
 
 // Where a defect is a bug.

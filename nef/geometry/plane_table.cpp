@@ -149,6 +149,11 @@ void PlaneTable::merge_later() {
 
 namespace {
 
+std::vector<std::uint32_t> hashes_of(const PlaneRows& rows, const Monitor& monitor) {
+  return vector_of(rows.size(), monitor,
+                   [&rows](std::size_t row) { return RowSlots::hash_of(rows, static_cast<std::uint32_t>(row)); });
+}
+
 // The rows whose hash another one has, too, and few others: those whose hash sets a bit that was set before.
 std::vector<std::uint32_t> rows_of_common_hash(std::span<const std::uint32_t> hashes) {
   constexpr std::size_t kBits = 32;  // a row: one of so many is taken for another one's
@@ -174,11 +179,10 @@ std::vector<std::uint32_t> rows_of_common_hash(std::span<const std::uint32_t> ha
 
 }  // namespace
 
-std::vector<std::uint32_t> PlaneTable::merge_equal() {
+std::vector<std::uint32_t> PlaneTable::merge_equal(const Monitor& monitor) {
   merges_ = true;
   const auto count = static_cast<std::uint32_t>(size());
-  std::vector<std::uint32_t> hashes(count);
-  for (std::uint32_t row = 0; row < count; ++row) hashes[row] = RowSlots::hash_of(rows_, row);
+  const std::vector<std::uint32_t> hashes = hashes_of(rows_, monitor);
   const std::vector<std::uint32_t> candidates = rows_of_common_hash(hashes);
   if (candidates.empty()) return {};
   RowSlots slots;
@@ -221,10 +225,7 @@ std::vector<std::uint32_t> PlaneTable::rows_of(const PlaneTable& other, const Mo
   const bool other_is_smaller = other.size() < size();
   const PlaneRows& few = other_is_smaller ? other.rows_ : rows_;
   const PlaneRows& many = other_is_smaller ? rows_ : other.rows_;
-  std::vector<std::uint32_t> hashes(few.size());
-  parallel_for_ranges(few.size(), kTogether, monitor, [&](std::size_t first, std::size_t last, const Monitor&) {
-    for (auto row = static_cast<std::uint32_t>(first); row < last; ++row) hashes[row] = RowSlots::hash_of(few, row);
-  });
+  const std::vector<std::uint32_t> hashes = hashes_of(few, monitor);
   RowSlots slots;
   slots.reserve(few.size());
   for (std::uint32_t row = 0; row < few.size(); ++row) slots.add_new(row, hashes[row]);

@@ -42,8 +42,8 @@ class PlaneTable {
   /// merge_equal(). Many different planes take less time so.
   void merge_later();
   /// Keeps the first one of equal planes, in their order: for each row the one that it has become, or nothing if no two
-  /// planes were equal. Expected O(planes).
-  std::vector<std::uint32_t> merge_equal();
+  /// planes were equal. Expected O(planes), partly on the threads of `monitor`.
+  std::vector<std::uint32_t> merge_equal(const Monitor& monitor = {});
 
   /// Appends a plane of another table that this one does not hold yet, and returns its row. Cheaper than intern_from:
   /// nothing is looked up.

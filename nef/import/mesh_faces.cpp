@@ -5,11 +5,12 @@
 #include "nef/import/mesh_faces.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <numeric>
+#include <utility>
 
 #include "nef/base/error.h"
 #include "nef/base/fast_path.h"
+#include "nef/base/threads/parallel.h"
+#include "nef/geometry/plane_finder.h"
 #include "nef/geometry/search/spatial_order.h"
 #include "nef/mesh/mesh_check.h"
 #include "nef/number/int128.h"
@@ -21,7 +22,7 @@ MeshFaces::MeshFaces(const Mesh& mesh, const MeshSurface& surface, const MeshOpt
       surface_(surface),
       options_(options),
       messages_(messages),
-      order_(spatial_order(surface.points.approximate())),
+      order_(spatial_order(surface.points.approximate(), options.monitor)),
       rank_(mesh.vertices.size()),
       point_of_(mesh.vertices.size()) {
   order_.erase(std::remove_if(order_.begin(), order_.end(), [&](std::uint32_t v) { return surface.place[v] != v; }),
@@ -44,27 +45,87 @@ Complex MeshFaces::oriented_surface(std::span<const std::uint32_t> faces) {
   return make_oriented_surface(collect(faces), options_.monitor);
 }
 
+// Some faces with planes in a table of their own; points and names are those of all.
+class MeshFaces::Block {
+ public:
+  Block(const MeshFaces& all, std::span<const std::uint32_t> faces);
+
+  SolidFaces take_faces() { return std::move(f_); }
+  Messages take_messages() { return std::move(messages_); }
+
+ private:
+  void add_face(std::uint32_t face);
+  [[nodiscard]] std::array<std::uint32_t, 3> corners_of(std::uint32_t triangle) const;
+  void push(std::span<const std::uint32_t> ring, PlaneId plane);
+  PlaneId plane_of_triangle(std::span<const std::uint32_t> t);
+  void add_triangles(std::uint32_t face);
+  void push_triangles(std::uint32_t face);
+
+  const MeshFaces& all_;
+  SolidFaces f_;
+  Messages messages_;
+  std::vector<std::uint32_t> ring_;
+  PlaneFinder finder_;
+};
+
 SolidFaces MeshFaces::collect(std::span<const std::uint32_t> faces) {
   f_ = {};
   add_points(faces.empty() ? order_ : places_of(faces));
-  const std::vector<std::uint32_t> order = in_order_of_points(faces);
-  std::size_t corners = 0;
-  for (const std::uint32_t face : order) corners += mesh_.face(face).size();
-  f_.plane.reserve(order.size());
-  f_.planes.reserve(order.size());
-  f_.begin.reserve(order.size() + 1);
-  f_.corners.reserve(corners);
-  f_.planes.merge_later();
-  constexpr std::size_t kAhead = 12;  // faces of a mesh without order lie anywhere in memory
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i + kAhead < order.size()) __builtin_prefetch(mesh_.face(order[i + kAhead]).data());
-    add_face(order[i]);
-  }
-  const std::vector<std::uint32_t> rows = f_.planes.merge_equal();
+  add_faces(in_order_of_points(faces));
+  const std::vector<std::uint32_t> rows = f_.planes.merge_equal(for_vertices(f_.planes.size(), options_.monitor));
   if (!rows.empty()) {
     for (PlaneId& plane : f_.plane) plane = PlaneId{rows[plane.row()] << 1U | (plane.value & 1U)};
   }
   return std::move(f_);
+}
+
+// On one thread all are one block, whose tables are taken as they are.
+void MeshFaces::add_faces(std::span<const std::uint32_t> faces) {
+  constexpr std::size_t kBlock = 8192;
+  const Monitor monitor = for_vertices(faces.size(), options_.monitor);
+  const std::size_t size = monitor.threads() == 1 ? std::max<std::size_t>(faces.size(), 1) : kBlock;
+  std::vector<SolidFaces> blocks((faces.size() + size - 1) / size);
+  std::vector<Messages> told(blocks.size());
+  parallel_for_ranges(faces.size(), size, monitor, [&](std::size_t first, std::size_t last, const Monitor&) {
+    Block block(*this, faces.subspan(first, last - first));
+    blocks[first / size] = block.take_faces();
+    told[first / size] = block.take_messages();
+  });
+  join(std::move(blocks));
+  for (const Messages& block : told) {
+    if (messages_ != nullptr) messages_->insert(messages_->end(), block.begin(), block.end());
+  }
+}
+
+void MeshFaces::join(std::vector<SolidFaces>&& blocks) {
+  SolidFaces all = blocks.empty() ? SolidFaces() : std::move(blocks.front());
+  std::size_t faces = all.plane.size();
+  std::size_t corners = all.corners.size();
+  std::size_t limbs = all.planes.limbs();
+  for (const SolidFaces& block : blocks) {
+    faces += block.plane.size();
+    corners += block.corners.size();
+    limbs += block.planes.limbs();
+  }
+  if (blocks.size() > 1) {
+    all.plane.reserve(faces);
+    all.planes.reserve(faces, limbs);
+    all.begin.reserve(faces + 1);
+    all.corners.reserve(corners);
+  }
+  for (std::size_t i = 1; i < blocks.size(); ++i) {
+    const SolidFaces block = std::move(blocks[i]);
+    const auto rows = static_cast<std::uint32_t>(all.planes.size());
+    const auto before = static_cast<std::uint32_t>(all.corners.size());
+    all.planes.append_new(block.planes, 0, block.planes.size());
+    for (const PlaneId plane : block.plane) all.plane.push_back(PlaneId{plane.value + 2 * rows});
+    for (const std::uint32_t end : std::span(block.begin).subspan(1)) all.begin.push_back(before + end);
+    all.corners.insert(all.corners.end(), block.corners.begin(), block.corners.end());
+  }
+  f_.planes = std::move(all.planes);
+  f_.plane = std::move(all.plane);
+  f_.begin = std::move(all.begin);
+  f_.corners = std::move(all.corners);
 }
 
 // Faces by their first point, so that their planes, too, come in spatial order.
@@ -129,61 +190,77 @@ PointId MeshFaces::push_small_point(const std::array<std::int64_t, 3>& x) {
       std::array<Int128, 7>{x[0] / common, x[1] / common, x[2] / common, surface_.points.denominator() / common});
 }
 
-void MeshFaces::add_face(std::uint32_t face) {
-  if (surface_.defects[face] == FaceDefect::kNoArea) return;
-  NEF_ASSERT(surface_.defects[face] == FaceDefect::kNone);
-  const std::span<const std::uint32_t> corners = mesh_.face(face);
+MeshFaces::Block::Block(const MeshFaces& all, std::span<const std::uint32_t> faces) : all_(all) {
+  std::size_t corners = 0;
+  for (const std::uint32_t face : faces) corners += all_.mesh_.face(face).size();
+  f_.plane.reserve(faces.size());
+  f_.planes.reserve(faces.size());
+  f_.begin.reserve(faces.size() + 1);
+  f_.corners.reserve(corners);
+  f_.planes.merge_later();
+  constexpr std::size_t kAhead = 12;  // faces of a mesh without order lie anywhere in memory
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    if (i + kAhead < faces.size()) __builtin_prefetch(all_.mesh_.face(faces[i + kAhead]).data());
+    add_face(faces[i]);
+  }
+}
+
+void MeshFaces::Block::add_face(std::uint32_t face) {
+  if (all_.surface_.defects[face] == FaceDefect::kNoArea) return;
+  NEF_ASSERT(all_.surface_.defects[face] == FaceDefect::kNone);
+  const std::span<const std::uint32_t> corners = all_.mesh_.face(face);
   ring_.resize(corners.size());
-  for (std::size_t i = 0; i < corners.size(); ++i) ring_[i] = point_of_[surface_.place[corners[i]]];
-  if (reverse_) std::reverse(ring_.begin(), ring_.end());
-  if (ring_.size() == 3 && !surface_.irregular[face]) {
+  for (std::size_t i = 0; i < corners.size(); ++i) ring_[i] = all_.point_of_[all_.surface_.place[corners[i]]];
+  if (all_.reverse_) std::reverse(ring_.begin(), ring_.end());
+  if (ring_.size() == 3 && !all_.surface_.irregular[face]) {
     const PlaneId plane = plane_of_triangle(ring_);
     if (plane.valid()) push(ring_, plane);
-  } else if (!surface_.planar[face]) {
+  } else if (!all_.surface_.planar[face]) {
     add_triangles(face);
-  } else if (surface_.irregular[face]) {
+  } else if (all_.surface_.irregular[face]) {
     push_triangles(face);
   } else {
     // Any triangle that it was cut into has its orientation.
-    const PlaneId plane = plane_of_triangle(corners_of(surface_.triangle_begin[face]));
+    const PlaneId plane = plane_of_triangle(corners_of(all_.surface_.triangle_begin[face]));
     push(ring_, plane);
   }
 }
 
 // A triangle of the surface as points.
-std::array<std::uint32_t, 3> MeshFaces::corners_of(std::uint32_t triangle) const {
-  std::array<std::uint32_t, 3> t = surface_.triangles[triangle];
-  for (std::uint32_t& v : t) v = point_of_[v];
-  if (reverse_) std::swap(t[1], t[2]);
+std::array<std::uint32_t, 3> MeshFaces::Block::corners_of(std::uint32_t triangle) const {
+  std::array<std::uint32_t, 3> t = all_.surface_.triangles[triangle];
+  for (std::uint32_t& v : t) v = all_.point_of_[v];
+  if (all_.reverse_) std::swap(t[1], t[2]);
   return t;
 }
 
-void MeshFaces::push(std::span<const std::uint32_t> ring, PlaneId plane) {
+void MeshFaces::Block::push(std::span<const std::uint32_t> ring, PlaneId plane) {
   f_.plane.push_back(plane);
   f_.corners.insert(f_.corners.end(), ring.begin(), ring.end());
   f_.begin.push_back(static_cast<std::uint32_t>(f_.corners.size()));
 }
 
 // No plane if the points are on one line.
-PlaneId MeshFaces::plane_of_triangle(std::span<const std::uint32_t> t) {
-  if (kFastPaths && !integers_.empty()) {
-    const std::optional<PlaneId> plane = PlaneFinder::through(
-        f_.planes, {integers_[t[0]], integers_[t[1]], integers_[t[2]]}, surface_.points.denominator());
+PlaneId MeshFaces::Block::plane_of_triangle(std::span<const std::uint32_t> t) {
+  if (kFastPaths && !all_.integers_.empty()) {
+    const std::optional<PlaneId> plane =
+        PlaneFinder::through(f_.planes, {all_.integers_[t[0]], all_.integers_[t[1]], all_.integers_[t[2]]},
+                             all_.surface_.points.denominator());
     if (plane) return *plane;
   }
-  return finder_.through(f_.planes, f_.points, PointId{t[0]}, PointId{t[1]}, PointId{t[2]});
+  return finder_.through(f_.planes, all_.f_.points, PointId{t[0]}, PointId{t[1]}, PointId{t[2]});
 }
 
 // A face that is not planar, as the check has cut it.
-void MeshFaces::add_triangles(std::uint32_t face) {
-  const std::string name = not_planar_text(mesh_, face);
-  if (options_.strict) throw InputError(name + "; triangulate it, or read the mesh without --strict");
-  if (messages_ != nullptr) messages_->push_back(name + " and was triangulated");
+void MeshFaces::Block::add_triangles(std::uint32_t face) {
+  const std::string name = not_planar_text(all_.mesh_, face);
+  if (all_.options_.strict) throw InputError(name + "; triangulate it, or read the mesh without --strict");
+  if (all_.messages_ != nullptr) messages_.push_back(name + " and was triangulated");
   push_triangles(face);
 }
 
-void MeshFaces::push_triangles(std::uint32_t face) {
-  for (std::uint32_t i = surface_.triangle_begin[face]; i < surface_.triangle_begin[face + 1]; ++i) {
+void MeshFaces::Block::push_triangles(std::uint32_t face) {
+  for (std::uint32_t i = all_.surface_.triangle_begin[face]; i < all_.surface_.triangle_begin[face + 1]; ++i) {
     const std::array<std::uint32_t, 3> t = corners_of(i);
     const PlaneId plane = plane_of_triangle(t);
     if (plane.valid()) push(t, plane);

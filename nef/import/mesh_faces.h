@@ -11,7 +11,6 @@
 
 #include "nef/construct/construct.h"
 #include "nef/construct/solid.h"
-#include "nef/geometry/plane_finder.h"
 #include "nef/import/checked_surface.h"
 #include "nef/mesh/surface/mesh_surface.h"
 
@@ -44,12 +43,10 @@ class MeshFaces {
   void add_points(std::span<const std::uint32_t> places);
   PointId push_small_point(const std::array<std::int64_t, 3>& x);
   [[nodiscard]] std::vector<std::uint32_t> in_order_of_points(std::span<const std::uint32_t> faces) const;
-  void add_face(std::uint32_t face);
-  [[nodiscard]] std::array<std::uint32_t, 3> corners_of(std::uint32_t triangle) const;
-  void push(std::span<const std::uint32_t> ring, PlaneId plane);
-  PlaneId plane_of_triangle(std::span<const std::uint32_t> t);
-  void add_triangles(std::uint32_t face);
-  void push_triangles(std::uint32_t face);
+  void add_faces(std::span<const std::uint32_t> faces);
+  void join(std::vector<SolidFaces>&& blocks);
+
+  class Block;
 
   const Mesh& mesh_;
   const MeshSurface& surface_;
@@ -62,8 +59,6 @@ class MeshFaces {
   // Of the points of these, over the denominator of the mesh's; empty if they are not small.
   std::vector<std::array<std::int64_t, 3>> integers_;
   bool reverse_ = false;
-  std::vector<std::uint32_t> ring_;
-  PlaneFinder finder_;
 };
 
 /// All faces for try_make_solid, turned over (which is noted) if they enclose a negative volume. O(n log n).

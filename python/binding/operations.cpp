@@ -5,6 +5,9 @@
 #include <pybind11/operators.h>
 #include <pybind11/stl.h>
 
+#include <optional>
+#include <utility>
+
 #include "binding/base/bindings.h"
 #include "binding/base/set_hash.h"
 #include "nef/parts/by_volume.h"
@@ -63,6 +66,18 @@ auto binary(Binary operation) {
   };
 }
 
+// The same for steps of loops.
+auto step(Polyhedron::Step kind, Binary operation) {
+  return [kind, operation](const MaybeWaiting& a, const Polyhedron& b) {
+    std::optional<Polyhedron> waiting = Polyhedron::waiting(kind, a.set, b);
+    if (waiting) return *std::move(waiting);
+    return call(items(a) + items(b), [=](const Monitor& monitor) {
+      a.set.compute(monitor);
+      return operation(a.set, b, monitor);
+    });
+  };
+}
+
 bool is_subset(const Polyhedron& a, const Polyhedron& b) {
   return call(items(a) + items(b), [=](const Monitor& monitor) { return subtract(a, b, monitor).is_empty(); });
 }
@@ -113,10 +128,10 @@ Polyhedron largest_part(const Polyhedron& a, const std::string& by) {
 
 void bind_operations(PolyhedronClass& c) {
   c.def(py::init<>(), "The empty set.")
-      .def("__or__", binary(unite), py::is_operator(), "Union.")
-      .def("__add__", binary(unite), py::is_operator(), "Union, as ``|``.")
+      .def("__or__", step(Polyhedron::Step::kUnite, unite), py::is_operator(), "Union.")
+      .def("__add__", step(Polyhedron::Step::kUnite, unite), py::is_operator(), "Union, as ``|``.")
       .def("__and__", binary(intersect), py::is_operator(), "Intersection.")
-      .def("__sub__", binary(subtract), py::is_operator(), "Difference.")
+      .def("__sub__", step(Polyhedron::Step::kSubtract, subtract), py::is_operator(), "Difference.")
       .def("__xor__", binary(symmetric_difference), py::is_operator(), "Symmetric difference.")
       .def(
           "__invert__",

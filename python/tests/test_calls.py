@@ -228,3 +228,37 @@ def test_daemon_threads_do_not_harm_the_end_of_python(progress):
     for run in runs:
         _, said = run.communicate(timeout=120)
         assert (run.returncode, said) == (0, b"")
+
+
+def drilled(steps=40):
+    """A large set minus many small ones, which waits until somebody looks."""
+    solid = ball(4000)
+    for i in range(steps):
+        low = [0.9 - 0.01 * i, 0.02 * i - 0.5, 0.1]
+        solid = solid - nef.box(low, [low[0] + 0.05, low[1] + 0.015, 0.2])
+    return solid
+
+
+def test_looks_at_waiting_steps_from_several_threads():
+    """One of those who look tells of its progress, for which it needs the interpreter's lock."""
+    told = []
+    solid = drilled()
+
+    def look():
+        with nef.progress(lambda *what: told.append(what)):
+            return solid.counts()
+
+    with concurrent.futures.ThreadPoolExecutor(3) as pool:
+        counts = [pool.submit(look) for _ in range(3)]
+        assert bool(solid) and not solid.is_empty() and solid.is_bounded()
+        assert {each.result() for each in counts} == {solid.counts()}
+
+
+def test_ctrl_c_while_steps_are_computed():
+    timer = threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT))
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        while True:
+            solid = drilled()
+            bool(solid)
+    assert solid.validate() == ""

@@ -148,3 +148,28 @@ def test_labels():
         nef.overlay(a, b, lambda x, y: -1)
     with pytest.raises(ZeroDivisionError):
         nef.overlay(a, b, lambda x, y: 1 // 0)
+
+
+def test_a_loop_of_small_steps():
+    """Steps of small sets wait until somebody looks; all versions are those of sets of cells."""
+    rng = random.Random(3)
+    boxes = [((3 * i, 3 * j, 0), (3 * i + 2, 3 * j + 2, 2)) for i in range(4) for j in range(4)]
+    solid, cells = nef.unite_all([nef.box(*box) for box in boxes]), set().union(*[cells_of(*box) for box in boxes])
+    versions = []
+    for _ in range(60):
+        low = [rng.randrange(11), rng.randrange(11), rng.randrange(2)]
+        high = [a + 1 for a in low]
+        if rng.random() < 0.2:
+            solid, cells = solid + nef.box(low, high), cells | cells_of(low, high)
+        else:
+            solid, cells = solid - nef.box(low, high), cells - cells_of(low, high)
+        versions.append((solid, cells))
+    everywhere = list(itertools.product(range(-1, 25), range(-1, 25), range(-1, 6)))
+    points = [[Fraction(c, 2) for c in cell] for cell in everywhere]
+    for solid, cells in [versions[-1]] + rng.sample(versions, 5):
+        assert [cell in cells for cell in everywhere] == solid.contains(points).tolist()
+        assert solid.validate() == ""
+    with pytest.raises(TypeError):
+        solid - 3
+    with pytest.raises(TypeError):
+        3 | solid

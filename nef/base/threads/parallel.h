@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <initializer_list>
+#include <vector>
 
 #include "nef/base/monitor.h"
 
@@ -23,6 +24,24 @@ void parallel_for(std::size_t count, const Monitor& monitor,
 /// The same for ranges of at most `size` indices that cover 0 .. count - 1: calls body(first, last, own) for each.
 void parallel_for_ranges(std::size_t count, std::size_t size, const Monitor& monitor,
                          const std::function<void(std::size_t, std::size_t, const Monitor& own)>& body);
+
+/// make(0) .. make(count - 1), each a small piece of work that neither waits nor throws; on one thread without writing
+/// memory twice.
+template <typename Make>
+[[nodiscard]] auto vector_of(std::size_t count, const Monitor& monitor, const Make& make) {
+  std::vector<decltype(make(std::size_t{}))> result;
+  if (monitor.threads() == 1) {
+    result.reserve(count);
+    for (std::size_t i = 0; i < count; ++i) result.push_back(make(i));
+    return result;
+  }
+  constexpr std::size_t kTogether = 4096;
+  result.resize(count);
+  parallel_for_ranges(count, kTogether, monitor, [&](std::size_t first, std::size_t last, const Monitor&) {
+    for (std::size_t i = first; i < last; ++i) result[i] = make(i);
+  });
+  return result;
+}
 
 /// Calls all of these, as parallel_for does, but each may use all threads of `monitor` itself.
 void parallel_calls(const Monitor& monitor, std::initializer_list<std::function<void(const Monitor& own)>> calls);

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "nef/base/threads/parallel.h"
+
 namespace nef {
 namespace {
 
@@ -16,15 +18,15 @@ double centre(const Box& box, std::size_t axis) {
 
 }  // namespace
 
-BoxTree::BoxTree(std::span<const Box> boxes, BoxSplit split) : order_(boxes.size()) {
+BoxTree::BoxTree(std::span<const Box> boxes, BoxSplit split, const Monitor& monitor) {
   if (boxes.empty()) return;
-  std::vector<std::array<double, 3>> centres(boxes.size());
-  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-    for (std::size_t axis = 0; axis < 3; ++axis) centres[i][axis] = centre(boxes[i], axis);
-  }
+  const Monitor own = for_vertices(boxes.size(), monitor);
+  const std::vector<std::array<double, 3>> centres = vector_of(boxes.size(), own, [&](std::size_t i) {
+    return std::array{centre(boxes[i], 0), centre(boxes[i], 1), centre(boxes[i], 2)};
+  });
   std::vector<SpatialKey> keys;
   if (split == BoxSplit::kCells) {
-    keys = spatial_keys(centres);
+    keys = spatial_keys(centres, own);
   } else {  // all in one cell
     keys.resize(boxes.size());
     for (std::uint32_t i = 0; i < boxes.size(); ++i) keys[i].index = i;
@@ -32,11 +34,8 @@ BoxTree::BoxTree(std::span<const Box> boxes, BoxSplit split) : order_(boxes.size
   nodes_.reserve(boxes.size());
   nodes_.emplace_back();
   split_cells(0, 0, keys, centres);
-  boxes_.reserve(boxes.size());
-  for (std::uint32_t i = 0; i < boxes.size(); ++i) {
-    order_[i] = keys[i].index;
-    boxes_.push_back(boxes[order_[i]]);
-  }
+  order_ = vector_of(boxes.size(), own, [&](std::size_t i) { return keys[i].index; });
+  boxes_ = vector_of(boxes.size(), own, [&](std::size_t i) { return boxes[order_[i]]; });
   // Bounds from the leaves upward: children come after their parents.
   for (std::size_t n = nodes_.size(); n-- > 0;) {
     Node& node = nodes_[n];
@@ -49,12 +48,10 @@ BoxTree::BoxTree(std::span<const Box> boxes, BoxSplit split) : order_(boxes.size
   }
 }
 
-BoxTree::Rough BoxTree::rough() const {
-  Rough result;
-  result.nodes.reserve(nodes_.size());
-  for (const Node& node : nodes_) result.nodes.emplace_back(node.box);
-  result.boxes = std::vector<RoughBox>(boxes_.begin(), boxes_.end());
-  return result;
+BoxTree::Rough BoxTree::rough(const Monitor& monitor) const {
+  const Monitor own = for_vertices(boxes_.size(), monitor);
+  return {vector_of(nodes_.size(), own, [this](std::size_t n) { return RoughBox(nodes_[n].box); }),
+          vector_of(boxes_.size(), own, [this](std::size_t i) { return RoughBox(boxes_[i]); })};
 }
 
 // The indices of those below a node, which lie beside each other.

@@ -16,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/geometry/search/spatial_order.h"
 
 namespace nef {
@@ -123,7 +124,8 @@ enum class BoxSplit : std::uint8_t { kCells, kMedians };
 class BoxTree {
  public:
   BoxTree() = default;
-  explicit BoxTree(std::span<const Box> boxes, BoxSplit split = BoxSplit::kCells);
+  /// Partly on the threads of `monitor`; the same tree on any number.
+  explicit BoxTree(std::span<const Box> boxes, BoxSplit split = BoxSplit::kCells, const Monitor& monitor = {});
 
   /// Calls visit(index of box) for every box that overlaps `query`, in an order that depends
   /// only on the boxes.
@@ -167,7 +169,7 @@ class BoxTree {
   struct Rough {
     std::vector<RoughBox> nodes, boxes;
   };
-  [[nodiscard]] Rough rough() const;
+  [[nodiscard]] Rough rough(const Monitor& monitor = {}) const;
 
   /// Calls visit(index of box, index of box of the other tree) for every two that meet(own box, other box) takes, which
   /// must take two boxes if it takes two inside them, until it returns false. Descends into pairs of nodes. In an order
@@ -266,8 +268,8 @@ class BoxTree::PairSearch {
   using Part = std::array<std::uint32_t, 2>;
 
   /// The tree and the groups (see for_each_pair) must outlive it. O(n).
-  explicit PairSearch(const BoxTree& tree, std::span<const std::uint32_t> groups = {})
-      : tree_(tree), groups_(groups), node_group_(tree.groups_of_nodes(groups)), rough_(tree.rough()) {}
+  explicit PairSearch(const BoxTree& tree, std::span<const std::uint32_t> groups = {}, const Monitor& monitor = {})
+      : tree_(tree), groups_(groups), node_group_(tree.groups_of_nodes(groups)), rough_(tree.rough(monitor)) {}
 
   /// All pairs in about so many parts, or more, if there are as many; in the order of for_each_pair.
   [[nodiscard]] std::vector<Part> parts(std::size_t count) const {

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "nef/base/threads/parallel.h"
+
 namespace nef {
 namespace {
 
@@ -69,7 +71,7 @@ std::vector<std::uint32_t> indices_of(const std::vector<SpatialKey>& keys) {
 
 }  // namespace
 
-std::vector<SpatialKey> spatial_keys(std::span<const std::array<double, 3>> points) {
+std::vector<SpatialKey> spatial_keys(std::span<const std::array<double, 3>> points, const Monitor& monitor) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::array<double, 3> low{kInfinity, kInfinity, kInfinity};
   double size = 0;  // of the longest side: cells are cubes
@@ -83,24 +85,21 @@ std::vector<SpatialKey> spatial_keys(std::span<const std::array<double, 3>> poin
   }
   constexpr double kCells = (1U << kBits) - 1;
   const double scale = size > 0 && size < kInfinity ? kCells / size : 0.0;
-  std::vector<SpatialKey> keys(points.size());
-  for (std::uint32_t v = 0; v < points.size(); ++v) {
-    std::uint64_t key = std::numeric_limits<std::uint64_t>::max();
-    if (finite(points[v])) {
-      key = 0;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const double cell = std::min(kCells, (points[v][i] - low[i]) * scale);
-        key |= spread(static_cast<std::uint64_t>(cell)) << i;
-      }
+  const auto key = [&](std::size_t v) -> SpatialKey {
+    if (!finite(points[v])) return {std::numeric_limits<std::uint64_t>::max(), static_cast<std::uint32_t>(v)};
+    std::uint64_t cell = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      cell |= spread(static_cast<std::uint64_t>(std::min(kCells, (points[v][i] - low[i]) * scale))) << i;
     }
-    keys[v] = {key, v};
-  }
+    return {cell, static_cast<std::uint32_t>(v)};
+  };
+  std::vector<SpatialKey> keys = vector_of(points.size(), for_vertices(points.size(), monitor), key);
   sort_by_cell(keys);
   return keys;
 }
 
-std::vector<std::uint32_t> spatial_order(std::span<const std::array<double, 3>> points) {
-  return indices_of(spatial_keys(points));
+std::vector<std::uint32_t> spatial_order(std::span<const std::array<double, 3>> points, const Monitor& monitor) {
+  return indices_of(spatial_keys(points, monitor));
 }
 
 std::vector<std::uint32_t> spatial_order(std::span<const std::array<double, 3>> points,

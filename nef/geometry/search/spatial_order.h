@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
+
 namespace nef {
 
 /// A point by its cell on a Z-shaped curve (Morton, 1966) through the bounding box of all points: bits 3 k, 3 k + 1 and
@@ -17,11 +19,11 @@ struct SpatialKey {
   std::uint32_t index;
 };
 
-/// The keys of all points, ascending by cell, then by index. O(n).
-std::vector<SpatialKey> spatial_keys(std::span<const std::array<double, 3>> points);
+/// The keys of all points, ascending by cell, then by index. O(n), on the threads of `monitor` but for the sorting.
+std::vector<SpatialKey> spatial_keys(std::span<const std::array<double, 3>> points, const Monitor& monitor = {});
 
 /// The indices of points in the order of their keys, so that arrays in this order are read along memory. O(n).
-std::vector<std::uint32_t> spatial_order(std::span<const std::array<double, 3>> points);
+std::vector<std::uint32_t> spatial_order(std::span<const std::array<double, 3>> points, const Monitor& monitor = {});
 
 /// The same with points of one cell sorted by `less`, which takes two indices.
 std::vector<std::uint32_t> spatial_order(std::span<const std::array<double, 3>> points,

@@ -30,7 +30,7 @@ bool adjacent(std::span<const std::uint32_t> next, std::uint32_t i, std::uint32_
 SurfacePatches::SurfacePatches(const MeshSurface& surface, const Monitor& monitor)
     : surface_(surface),
       monitor_(monitor),
-      stars_(surface.points, surface.triangles),
+      stars_(surface.points, surface.triangles, monitor),
       patch_of_face_(surface.defects.size(), 0),
       faces_(planar_faces()) {
   for (std::uint32_t p = 0; p < faces_.patches.size(); ++p) {
@@ -196,10 +196,10 @@ std::vector<Box> SurfacePatches::triangle_boxes(const Layout& layout, const Patc
 }
 
 BoxTree SurfacePatches::tree(const Layout& layout) const {
-  std::vector<Box> boxes;
-  boxes.reserve(layout.patches.size());
-  for (const Patch& patch : layout.patches) boxes.push_back(box(corners(layout, patch)));
-  return BoxTree(boxes);
+  const Monitor monitor = for_vertices(layout.patches.size(), monitor_);
+  const std::vector<Box> boxes =
+      vector_of(layout.patches.size(), monitor, [&](std::size_t p) { return box(corners(layout, layout.patches[p])); });
+  return BoxTree(boxes, BoxSplit::kCells, monitor);
 }
 
 void SurfacePatches::within(const Layout& layout, const Patch& patch, const Visit& visit) const {
@@ -333,7 +333,7 @@ class WideStars {
     std::vector<Pair> result;
     const auto plain = [&](const BoxTree& tree, std::span<const std::uint32_t> groups, const auto& patch) {
       constexpr std::size_t kBoxesOfPart = 2048;
-      const BoxTree::PairSearch search(tree, groups);
+      const BoxTree::PairSearch search(tree, groups, monitor);
       const std::vector<BoxTree::PairSearch::Part> parts = search.parts(tree.size() / kBoxesOfPart + 1);
       std::vector<std::vector<Pair>> found(parts.size());
       std::atomic<std::size_t> count = 0;  // so far, but for some of each part

@@ -3,46 +3,61 @@
 
 #include <algorithm>
 
+#include "nef/base/threads/parallel.h"
+
 namespace nef {
 
-VertexStars::VertexStars(const MeshPoints& points, std::span<const Triangle> triangles)
+VertexStars::VertexStars(const MeshPoints& points, std::span<const Triangle> triangles, const Monitor& monitor)
     : points_(points),
       begin_(points.size() + 1, 0),
       wedges_(3 * triangles.size()),
       across_(3 * triangles.size(), kNone),
       flat_(points.size(), 0) {
+  sort_by_vertex(triangles);
+  constexpr std::size_t kBlock = 4096;
+  const Monitor own = for_vertices(triangles.size(), monitor);
+  views_ = vector_of(triangles.size(), own, [&](std::size_t i) { return views_of(triangles[i]); });
+  std::vector<std::vector<std::uint32_t>> open((flat_.size() + kBlock - 1) / kBlock);
+  parallel_for_ranges(flat_.size(), kBlock, own, [&](std::size_t first, std::size_t last, const Monitor&) {
+    for (auto v = static_cast<std::uint32_t>(first); v < last; ++v) {
+      if (!close(star(v))) {
+        open[first / kBlock].push_back(v);
+      } else if (is_flat(v, star(v))) {
+        flat_[v] = 1;
+      }
+    }
+  });
+  // The sides that leave such a vertex and those that arrive there.
+  for (const std::vector<std::uint32_t>& of_block : open) {
+    all_closed_ = all_closed_ && of_block.empty();
+    for (const std::uint32_t v : of_block) {
+      for (const Wedge& wedge : star(v)) {
+        across_[3 * wedge.triangle + wedge.corner] = kNone;
+        across_[3 * wedge.triangle + (wedge.corner == 0 ? 2 : wedge.corner - 1)] = kNone;
+      }
+    }
+  }
+}
+
+void VertexStars::sort_by_vertex(std::span<const Triangle> triangles) {
   for (const Triangle& t : triangles) {
     for (const std::uint32_t v : t) ++begin_[v + 1];
   }
   for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
-  views_.reserve(triangles.size());
   std::vector<std::uint32_t> at(begin_.begin(), begin_.end() - 1);
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
     const Triangle& t = triangles[i];
     for (std::uint32_t k = 0; k < 3; ++k) wedges_[at[t[k]]++] = {i, k, t[(k + 1) % 3], t[(k + 2) % 3]};
-    unsigned views = 0;
-    for (unsigned axis = 0; const std::int8_t turn : points.filtered_turns(t[0], t[1], t[2])) {
-      views |= (static_cast<unsigned>(turn > 0) | static_cast<unsigned>(turn < 0) << 1U) << axis;
-      axis += 2;
-    }
-    views_.push_back(static_cast<std::uint8_t>(views));
   }
-  std::vector<std::uint32_t> open;
-  for (std::uint32_t v = 0; v < flat_.size(); ++v) {
-    if (!close(star(v))) {
-      open.push_back(v);
-    } else if (is_flat(v, star(v))) {
-      flat_[v] = 1;
-    }
+}
+
+std::uint8_t VertexStars::views_of(const Triangle& t) const {
+  unsigned views = 0;
+  for (unsigned axis = 0; const std::int8_t turn : points_.filtered_turns(t[0], t[1], t[2])) {
+    views |= (static_cast<unsigned>(turn > 0) | static_cast<unsigned>(turn < 0) << 1U) << axis;
+    axis += 2;
   }
-  all_closed_ = open.empty();
-  // The sides that leave such a vertex and those that arrive there.
-  for (const std::uint32_t v : open) {
-    for (const Wedge& wedge : star(v)) {
-      across_[3 * wedge.triangle + wedge.corner] = kNone;
-      across_[3 * wedge.triangle + (wedge.corner == 0 ? 2 : wedge.corner - 1)] = kNone;
-    }
-  }
+  return static_cast<std::uint8_t>(views);
 }
 
 // True if the vertex is closed; then says what is across the sides that leave it.

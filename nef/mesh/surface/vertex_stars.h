@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "nef/base/monitor.h"
 #include "nef/mesh/mesh_points.h"
 
 namespace nef {
@@ -33,8 +34,8 @@ class VertexStars {
   };
 
   /// Triangles of points, none degenerate. Both must outlive this object. O(n log n), for a bounded number of triangles
-  /// around a vertex O(n).
-  VertexStars(const MeshPoints& points, std::span<const Triangle> triangles);
+  /// around a vertex O(n); on the threads of `monitor`, but for the sorting of triangles by vertex.
+  VertexStars(const MeshPoints& points, std::span<const Triangle> triangles, const Monitor& monitor);
 
   /// The triangles at a vertex, in their order.
   [[nodiscard]] std::span<const Wedge> star(std::uint32_t vertex) const {
@@ -68,6 +69,8 @@ class VertexStars {
   }
 
  private:
+  void sort_by_vertex(std::span<const Triangle> triangles);
+  [[nodiscard]] std::uint8_t views_of(const Triangle& t) const;
   bool close(std::span<const Wedge> star);
   bool close_wide(std::span<const Wedge> star);
   [[nodiscard]] bool is_flat(std::uint32_t vertex, std::span<const Wedge> star) const;

@@ -72,7 +72,7 @@ TEST_CASE("Height fields are terrains from either side") {
       for (Triangle& t : triangles) std::swap(t[1], t[2]);
     }
     const MeshPoints points(places);
-    const VertexStars stars(points, triangles);
+    const VertexStars stars(points, triangles, Monitor());
     Terrains terrains(points, stars, triangles, {});
     CHECK(terrains.is_terrain(numbers(kOfGrid)));
     CHECK_FALSE(terrains.is_terrain(numbers(triangles.size())));
@@ -96,7 +96,7 @@ TEST_CASE("Triangles of a terrain meet in nothing but what they share") {
         })) {
       continue;
     }
-    const VertexStars stars(points, triangles);
+    const VertexStars stars(points, triangles, Monitor());
     Terrains terrains(points, stars, triangles, {});
     std::vector<std::uint32_t> asked = numbers(random() % 3 == 0 ? triangles.size() : kOfGrid);
     std::shuffle(asked.begin(), asked.end(), random);

@@ -47,7 +47,7 @@ TEST_CASE("Triangles around a flat vertex meet in nothing but what they share") 
     std::vector<Triangle> fan;
     for (std::uint32_t i = 0; i < count; ++i) fan.push_back({0, 1 + i, 1 + (i + 1) % count});
     if (std::any_of(fan.begin(), fan.end(), [&](const Triangle& t) { return degenerate(points, t); })) continue;
-    const VertexStars stars(points, fan);
+    const VertexStars stars(points, fan, Monitor());
     for (std::size_t i = 0; i < fan.size(); ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         (stars.settle(fan[i], fan[j]) ? settled : open) += 1;
@@ -106,7 +106,7 @@ TEST_CASE("All vertices are closed if each edge has a face on either side and no
     bool expected = faces.size() == triangles.size();
     for (const auto& [edge, count] : uses)
       expected = expected && count == 1 && uses.count({edge.second, edge.first}) == 1;
-    CHECK(VertexStars(points, triangles).all_closed() == expected);
+    CHECK(VertexStars(points, triangles, Monitor()).all_closed() == expected);
     closed += expected ? 1 : 0;
   }
   CHECK(closed > 100);
@@ -125,11 +125,11 @@ TEST_CASE("A vertex of very many triangles is closed and flat like others") {
     triangles.push_back({1, 2 + (i + 1) % kCount, 2 + i});
   }
   const MeshPoints points(places);
-  const VertexStars stars(points, triangles);
+  const VertexStars stars(points, triangles, Monitor());
   CHECK(stars.all_closed());
   CHECK(stars.settle(triangles[0], triangles[2 * (kCount / 2)]));
   triangles.push_back(triangles.back());
-  CHECK_FALSE(VertexStars(points, triangles).all_closed());
+  CHECK_FALSE(VertexStars(points, triangles, Monitor()).all_closed());
 }
 
 }  // namespace

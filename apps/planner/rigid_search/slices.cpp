@@ -5,6 +5,7 @@
 
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/rigid_search/rotations.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/construct/construct.h"
 
 namespace nef::planner {
@@ -71,9 +72,14 @@ Slices::Slices(const Scene& scene, const Monitor& monitor) : scene_(scene) {
   scene_.start.reset();
   scene_.goal.reset();
   const auto box = bounding_box(scene_.robot);
-  for (const Quaternion& q : rotations_of_cube()) {
-    const Polyhedron turned = transform(scene_.robot, map_of({Rational3{}, q}), monitor);
-    if (bounding_box(turned) == box && equal(turned, scene_.robot)) symmetries_.push_back(q);
+  const std::vector<Quaternion> rotations = rotations_of_cube();
+  std::vector<char> is_symmetry(rotations.size(), 0);
+  parallel_for(rotations.size(), monitor, [&](std::size_t i, const Monitor& own) {
+    const Polyhedron turned = transform(scene_.robot, map_of({Rational3{}, rotations[i]}), own);
+    is_symmetry[i] = bounding_box(turned) == box && equal(turned, scene_.robot) ? 1 : 0;
+  });
+  for (std::size_t i = 0; i < rotations.size(); ++i) {
+    if (is_symmetry[i] != 0) symmetries_.push_back(rotations[i]);
   }
 }
 
@@ -85,21 +91,17 @@ Quaternion Slices::least_alike(const Quaternion& rotation) const {
   return smallest;
 }
 
-Slices::Entry& Slices::entry_of(const Quaternion& rotation) {
+const Quaternion& Slices::shared(const Quaternion& rotation) {
   const std::scoped_lock lock(mutex_);
-  Entry*& entry = entries_[rotation];
-  if (entry == nullptr) {
-    const Quaternion least = least_alike(rotation);
-    entry = &slices_[least];
-    entry->rotation = least;
-  }
-  return *entry;
+  const auto [place, is_new] = shared_.try_emplace(rotation);
+  if (is_new) place->second = least_alike(rotation);
+  return place->second;
 }
 
-const Slice& Slices::at(const Quaternion& rotation, const Monitor& monitor) {
-  Entry& entry = entry_of(rotation);
-  std::call_once(entry.is_made, [&] { entry.slice = made_at(entry.rotation, monitor); });
-  return entry.slice;
+const Slice& Slices::at(const Quaternion& rotation, const Monitor& monitor, const std::function<bool()>& meanwhile) {
+  const Quaternion& least = shared(rotation);
+  return slices_.at(
+      least, [&] { return made_at(least, monitor); }, meanwhile);
 }
 
 Slice Slices::made_at(const Quaternion& rotation, const Monitor& monitor) const {

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A slice is the complement of sums of convex pieces: those of a solid robot and of the obstacles are made once and
+// only turned for a slice, a fifth of the time of `elbow`. Other robots, and bodies of many pieces, whose sum may be
+// found without pieces, are summed whole for each slice. Points of a component are spread over its zones.
 #include "apps/planner/rigid_search/slices.h"
 
 #include <algorithm>
 
+#include "apps/minkowski/minkowski.h"
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/rigid_search/rotations.h"
 #include "nef/base/threads/parallel.h"
@@ -71,6 +76,14 @@ Slices::Slices(const Scene& scene, const Monitor& monitor) : scene_(scene) {
   scene_.turns_freely = false;
   scene_.start.reset();
   scene_.goal.reset();
+  if (scene_.robot.is_regular()) {
+    obstacles_ = fixed_obstacles(scene_, monitor);
+    for (minkowski::ConvexCell& cell : minkowski::decompose(scene_.robot, monitor)) {
+      if (cell.dimension == 3) pieces_.push_back(std::move(cell.mesh));
+    }
+    constexpr std::size_t kFewPairs = 100;  // as minkowski::configuration_space has it
+    if (obstacles_->solid_count() * pieces_.size() > kFewPairs) obstacles_.reset();
+  }
   const auto box = bounding_box(scene_.robot);
   const std::vector<Quaternion> rotations = rotations_of_cube();
   std::vector<char> is_symmetry(rotations.size(), 0);
@@ -104,11 +117,23 @@ const Slice& Slices::at(const Quaternion& rotation, const Monitor& monitor, cons
       least, [&] { return made_at(least, monitor); }, meanwhile);
 }
 
-Slice Slices::made_at(const Quaternion& rotation, const Monitor& monitor) const {
+Polyhedron Slices::free_positions_at(const Quaternion& rotation, const Monitor& monitor) const {
+  const AffineMap turn = map_of({Rational3{}, rotation});
+  if (obstacles_) {
+    std::vector<Mesh> turned = pieces_;
+    for (Mesh& piece : turned) {
+      for (Rational3& v : piece.vertices) v = turn(v);
+    }
+    return obstacles_->free_positions(turned, monitor);
+  }
   Scene turned = scene_;
-  turned.robot = transform(scene_.robot, map_of({Rational3{}, rotation}), monitor);
+  turned.robot = transform(scene_.robot, turn, monitor);
+  return free_positions(turned, monitor);
+}
+
+Slice Slices::made_at(const Quaternion& rotation, const Monitor& monitor) const {
   Slice slice;
-  slice.free = std::make_shared<const FreeSpace>(free_positions(turned, monitor));
+  slice.free = std::make_shared<const FreeSpace>(free_positions_at(rotation, monitor));
   const FreeSpace& free = *slice.free;
   if (free.complex().vertex_count() == 0) {  // all of space or nothing
     const CellId all = free.locate(ExactPoint(Rational3{}));

@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "apps/minkowski/sum/fixed_obstacles.h"
 #include "apps/planner/free_space/free_space.h"
 #include "apps/planner/intersection/vectors.h"
 #include "apps/planner/rigid/motion_checker.h"
@@ -68,9 +69,13 @@ class Slices {
  private:
   [[nodiscard]] Quaternion least_alike(const Quaternion& rotation) const;
 
+  [[nodiscard]] Polyhedron free_positions_at(const Quaternion& rotation, const Monitor& monitor) const;
   [[nodiscard]] Slice made_at(const Quaternion& rotation, const Monitor& monitor) const;
 
   Scene scene_;
+  // Of a solid robot, if there are few pairs of convex pieces: both sides cut up once, instead of for each slice.
+  std::optional<minkowski::FixedObstacles> obstacles_;
+  std::vector<Mesh> pieces_;
   std::vector<Quaternion> symmetries_;
   MadeOnce<Quaternion, Slice> slices_;  // by the least of the rotations that share one
   std::mutex mutex_;                    // of the other table

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "apps/planner/free_space/collision.h"
+#include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid_search/certified_trees.h"
 #include "apps/planner/rigid_search/first_true.h"
@@ -244,7 +245,7 @@ TEST_CASE("The first trial that succeeds is the same on any number of threads", 
     CHECK_THROWS_AS(first_true(99, monitor, trial(19)), InputError);
     // Those behind it are stopped.
     CHECK(first_true(2, monitor, [](std::size_t i, const Monitor& own) {
-            while (i == 1) own.check_interruption();
+            for (std::size_t k = 0; i == 1 && k < 10000000000; ++k) own.check_interruption();
             return true;
           }) == 0);
   }
@@ -299,6 +300,30 @@ TEST_CASE("The symmetries of a robot are found, and slices are shared", "[rigid]
   CHECK(slice.component_at({0, 0, 0}) == std::size_t{0});
   CHECK_FALSE(slice.component_at({4, 4, 4}));
   for (const Rational3& p : slice.components[0].points) CHECK(slice.component_at(p) == std::size_t{0});
+}
+
+TEST_CASE("Slices of bodies that are cut up once are the free positions of the turned robot", "[rigid]") {
+  const std::string l = "box(-1,-1/4,-1/4, 1,1/4,1/4) + box(-1,-1/4,-1/4, -1/2,1/4,1)";
+  const std::string boxes = R"J("box(1,1,1, 3,2,4)", "box(2,1,0, 4,5,3) - box(3,2,1, 5,4,2)", "box(0,4,0, 3,4,5)")J";
+  const std::string in_box = R"J(, "box": [[0,0,0],[5,5,5]])J";
+  const std::string robot = R"J({"robot": ")J";
+  const std::string obstacles = R"J(", "obstacles": [)J";
+  for (const std::string& text :
+       {robot + l + obstacles + boxes + "]}", robot + l + obstacles + boxes + "]" + in_box + "}",
+        robot + l + obstacles + boxes + R"J(, "halfspace(1,1,1,-2)"])J" + in_box + "}",
+        robot + l + " + box(1,-1,0, 2,1,0)" + obstacles + boxes + "]" + in_box + "}"}) {
+    INFO(text);
+    Scene scene = scene_of(text);
+    for (const ContactRule contact : {ContactRule::kAllow, ContactRule::kForbid}) {
+      scene.contact = contact;
+      Slices slices(scene);
+      for (const Quaternion& q : {Quaternion{1, 0, 0, 0}, {1, 1, 0, 0}, {1, ratio(1, 2), ratio(-1, 4), 1}}) {
+        Scene turned = scene;
+        turned.robot = transform(scene.robot, map_of({Rational3{}, q}));
+        CHECK(equal(slices.at(q, {}).free->set(), free_positions(turned)));
+      }
+    }
+  }
 }
 
 TEST_CASE("Paths become shorter, with the same ends", "[rigid]") {

@@ -23,6 +23,9 @@ class FixedObstacles {
   FixedObstacles(std::span<const Polyhedron> obstacles, const std::optional<std::array<Rational3, 2>>& box,
                  bool may_touch, const Monitor& monitor);
 
+  /// Convex pieces of the solid parts.
+  [[nodiscard]] std::size_t solid_count() const { return solid_.size(); }
+
   /// The free positions of the origin of a robot that is the union of closed convex solids; with none, everything is
   /// free. Sums that cannot reach the box are left out. Throws Interrupted if `monitor` says so.
   [[nodiscard]] Polyhedron free_positions(std::span<const Mesh> robot, const Monitor& monitor) const;

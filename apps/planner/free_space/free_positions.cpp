@@ -72,6 +72,12 @@ std::vector<std::size_t> obstacles_near(const Scene& scene, std::size_t index) {
 
 }  // namespace
 
+minkowski::FixedObstacles fixed_obstacles(const Scene& scene, const Monitor& monitor) {
+  std::vector<Polyhedron> obstacles;
+  for (const Polyhedron& obstacle : scene.obstacles) obstacles.push_back(reachable_part(obstacle, scene, monitor));
+  return {obstacles, scene.box, scene.contact == ContactRule::kAllow, monitor};
+}
+
 Polyhedron free_positions(const Scene& scene, const Monitor& monitor) {
   require_no_rotation(scene);
   require_bounded_robot(scene);

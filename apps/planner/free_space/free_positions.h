@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "apps/minkowski/minkowski.h"
+#include "apps/minkowski/sum/fixed_obstacles.h"
 #include "apps/planner/scene/scene.h"
 #include "nef/base/monitor.h"
 
@@ -16,6 +17,10 @@ namespace nef::planner {
 /// one with its border only, and there the set is neither. Robot and obstacles are taken closed. Throws InputError for
 /// a robot that turns: reset the rotation of a copy to ask about one orientation.
 Polyhedron free_positions(const Scene& scene, const Monitor& monitor = {});
+
+/// The obstacles of a scene, cut up once for the free positions of many solid robots: for the scene's robot turned in
+/// any way about its reference point, and what is smaller. Throws InputError as free_positions does.
+minkowski::FixedObstacles fixed_obstacles(const Scene& scene, const Monitor& monitor = {});
 
 /// An obstacle came, went, or became another set.
 struct ObstacleChange {

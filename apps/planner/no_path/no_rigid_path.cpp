@@ -61,21 +61,20 @@ PathProof::Claim no_path_claim(const MotionChecker& checker, const RotationClaim
 
 class NoPathSearch::State {
  public:
-  State(const MotionChecker& checker, const RigidPose& start, const RigidPose& goal, const Monitor& monitor)
+  State(const MotionChecker& checker, const RigidPose& start, const RigidPose& goal)
       : claim_(no_path_claim(checker, {start, goal, {}, {}, {}})),
         references_(references_of(claim_)),
         barriers_(references_.size()),
-        is_done_(references_.size(), false),
-        monitor_(monitor) {}
+        is_done_(references_.size(), false) {}
 
-  NoPathAnswer run(std::size_t max_cells) {
+  NoPathAnswer run(std::size_t max_cells, const Monitor& monitor) {
     NoPathAnswer answer;
     try {
       for (std::size_t i = 0; i < references_.size() && cells_ < max_cells && !answer.proof; ++i) {
         if (is_done_[i]) continue;
         const bool is_last =
             std::find(is_done_.begin() + static_cast<std::ptrdiff_t>(i) + 1, is_done_.end(), false) == is_done_.end();
-        look_for(i, (max_cells - cells_ + 1) / (is_last ? 1 : 2), answer);
+        look_for(i, (max_cells - cells_ + 1) / (is_last ? 1 : 2), answer, monitor);
       }
     } catch (const Interrupted&) {
       // What is in question is known.
@@ -90,20 +89,20 @@ class NoPathSearch::State {
 
  private:
   // A barrier of positions of one reference point, with so many boxes.
-  void look_for(std::size_t i, std::size_t given, NoPathAnswer& answer) {
+  void look_for(std::size_t i, std::size_t given, NoPathAnswer& answer, const Monitor& monitor) {
     last_ = i;
     if (barriers_[i] == nullptr) {
-      barriers_[i] = std::make_unique<PositionBarrier>(claim_, orientations_, references_[i], monitor_);
+      barriers_[i] = std::make_unique<PositionBarrier>(claim_, orientations_, references_[i], monitor);
     }
     std::size_t budget = given;
-    const bool found = barriers_[i]->find(budget);
+    const bool found = barriers_[i]->find(budget, monitor);
     cells_ += given - budget;
     is_done_[i] = found || budget > 0;
     if (!found) return;
     PathProof proof;
     proof.claim = claim_;
     proof.cells = barriers_[i]->take_written();
-    if (!complaint_about(proof, monitor_)) answer.proof = std::move(proof);
+    if (!complaint_about(proof, monitor)) answer.proof = std::move(proof);
   }
 
   [[nodiscard]] BarrierInQuestion in_question() const {
@@ -123,21 +122,21 @@ class NoPathSearch::State {
   std::vector<bool> is_done_;                               // nothing is left to be cut
   std::size_t last_ = 0;
   std::size_t cells_ = 0;
-  Monitor monitor_;
 };
 
-NoPathSearch::NoPathSearch(const MotionChecker& checker, const RigidPose& start, const RigidPose& goal,
-                           const Monitor& monitor)
-    : state_(std::make_unique<State>(checker, start, goal, monitor)) {}
+NoPathSearch::NoPathSearch(const MotionChecker& checker, const RigidPose& start, const RigidPose& goal)
+    : state_(std::make_unique<State>(checker, start, goal)) {}
 
 NoPathSearch::~NoPathSearch() = default;
 
-NoPathAnswer NoPathSearch::run(std::size_t max_cells) { return state_->run(max_cells); }
+NoPathAnswer NoPathSearch::run(std::size_t max_cells, const Monitor& monitor) {
+  return state_->run(max_cells, monitor);
+}
 
 NoPathAnswer prove_no_rigid_path(const Scene& scene, const NoPathLimits& limits, const Monitor& monitor) {
   const RigidQuestion question = rigid_question_of(scene);
   const MotionChecker checker = MotionChecker::of_scene(with_robot_as_in_its_file(scene, monitor), monitor);
-  return NoPathSearch(checker, question.start, question.goal, monitor).run(limits.max_cells);
+  return NoPathSearch(checker, question.start, question.goal).run(limits.max_cells, monitor);
 }
 
 }  // namespace nef::planner

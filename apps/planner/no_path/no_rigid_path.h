@@ -56,13 +56,12 @@ PathProof::Claim no_path_claim(const MotionChecker& checker, const RotationClaim
 /// reached, the monitor stops it, or nothing is left to be cut.
 class NoPathSearch {
  public:
-  NoPathSearch(const MotionChecker& checker, const RigidPose& start, const RigidPose& goal,
-               const Monitor& monitor = {});
+  NoPathSearch(const MotionChecker& checker, const RigidPose& start, const RigidPose& goal);
   ~NoPathSearch();
 
   /// Goes on until the proof is found, `max_cells` boxes are made in all, nothing is left to be cut, or the monitor
   /// stops it.
-  NoPathAnswer run(std::size_t max_cells);
+  NoPathAnswer run(std::size_t max_cells, const Monitor& monitor = {});
 
  private:
   class State;

@@ -28,10 +28,9 @@ PositionBarrier::PositionBarrier(const PathProof::Claim& claim, const Orientatio
       reference_(reference),
       images_(images_of_charts(claim, orientations, reference, monitor)),
       pairs_(claim, orientations, reference, monitor),
-      monitor_(monitor),
       graph_(claim, reference, pairs_.reach()) {
   add_samples();
-  judge(std::array{graph_.add_root(pairs_.all())});
+  judge(std::array{graph_.add_root(pairs_.all())}, monitor);
 }
 
 // The corners, the middle and the middles of the octants of each chart that is no image of another one.
@@ -87,10 +86,10 @@ double PositionBarrier::effort_at(const BarrierCell& cell, const Vector3d& posit
 }
 
 // Each cell is judged by the samples in the order that is known before, so threads need not wait for each other.
-void PositionBarrier::judge(std::span<const CellId> ids) {
+void PositionBarrier::judge(std::span<const CellId> ids, const Monitor& monitor) {
   judged_.resize(graph_.size());
   std::vector<FreeSamples> free(ids.size());
-  parallel_for(ids.size(), monitor_, [&](std::size_t i, const Monitor& own) {
+  parallel_for(ids.size(), monitor, [&](std::size_t i, const Monitor& own) {
     Order order = order_;
     judge(ids[i], order, free[i], own);
   });
@@ -156,24 +155,24 @@ void PositionBarrier::choose_axis(BarrierCell& cell, Judged& judged, Order& orde
 }
 
 // Covers boxes; if a pose in one is open, that is a sample from now on. False if the budget is used up.
-bool PositionBarrier::cover(std::vector<CellId> ids, std::size_t& budget) {
+bool PositionBarrier::cover(std::vector<CellId> ids, std::size_t& budget, const Monitor& monitor) {
   // The hardest one first.
   std::sort(ids.begin(), ids.end(), [&](CellId a, CellId b) { return judged_[a].effort > judged_[b].effort; });
   std::vector<CoverTask> tasks;
   for (const CellId id : ids) tasks.push_back({graph_[id].box, &graph_[id].blocked});
-  const PoseCover found = cover_poses(pairs_, orientations_, images_, tasks, budget, monitor_);
+  const PoseCover found = cover_poses(pairs_, orientations_, images_, tasks, budget, monitor);
   for (std::size_t i = 0; i < ids.size(); ++i) {
     if (found.is_done[i]) graph_[ids[i]].state = BarrierCell::State::kBlocked;
   }
   if (!found.open) return budget > 0;
   graph_[ids[found.open_task]].blocked.clear();
   if (budget == 0) return false;
-  add_open(ids[found.open_task], *found.open, budget);
+  add_open(ids[found.open_task], *found.open, budget, monitor);
   return true;
 }
 
 // A pose in a cell is open: boxes that look blocked are judged anew if it shows that they are not.
-void PositionBarrier::add_open(CellId id, const OpenPose& open, std::size_t& budget) {
+void PositionBarrier::add_open(CellId id, const OpenPose& open, std::size_t& budget, const Monitor& monitor) {
   order_.insert(order_.begin(), static_cast<std::uint32_t>(samples_.size()));
   samples_.push_back({pairs_.turned(open.orientation), 1});
   std::vector<CellId> others;
@@ -183,7 +182,7 @@ void PositionBarrier::add_open(CellId id, const OpenPose& open, std::size_t& bud
   std::vector<char> is_wrong(others.size(), 0);
   constexpr std::size_t kCellsAtOnce = 16;
   parallel_for_ranges(
-      others.size(), kCellsAtOnce, monitor_, [&](std::size_t first, std::size_t last, const Monitor& own) {
+      others.size(), kCellsAtOnce, monitor, [&](std::size_t first, std::size_t last, const Monitor& own) {
         for (std::size_t i = first; i < last; ++i) {
           const BarrierCell& cell = graph_[others[i]];
           is_wrong[i] = depth(cell, samples_.back().robot, cell.box.middle(), own) <= pairs_.resolution() ? 1 : 0;
@@ -193,7 +192,7 @@ void PositionBarrier::add_open(CellId id, const OpenPose& open, std::size_t& bud
   for (std::size_t i = 0; i < others.size(); ++i) {
     if (is_wrong[i] != 0) wrong.push_back(others[i]);
   }
-  judge(wrong);
+  judge(wrong, monitor);
   budget -= std::min(budget, graph_.size() / 4);
   // It is cut towards the open pose.
   if (!judged_[id].is_settled) return;
@@ -206,8 +205,8 @@ void PositionBarrier::add_open(CellId id, const OpenPose& open, std::size_t& bud
 }
 
 // One round; false if nothing is left to be done.
-bool PositionBarrier::advance(std::size_t& budget) {
-  const std::vector<CellId> cells = graph_.cheapest_barrier(monitor_);
+bool PositionBarrier::advance(std::size_t& budget, const Monitor& monitor) {
+  const std::vector<CellId> cells = graph_.cheapest_barrier(monitor);
   if (cells.empty()) return false;
   std::vector<CellId> halves;
   for (const CellId id : cells) {
@@ -215,9 +214,9 @@ bool PositionBarrier::advance(std::size_t& budget) {
     for (const CellId half : graph_.cut(id)) halves.push_back(half);
     --budget;
   }
-  judge(halves);
+  judge(halves, monitor);
   if (!halves.empty()) return budget > 0;
-  return cover(cells, budget);
+  return cover(cells, budget, monitor);
 }
 
 std::optional<std::size_t> PositionBarrier::boxes_left() const {
@@ -239,9 +238,9 @@ std::vector<PositionBox> PositionBarrier::in_question() const {
   return result;
 }
 
-bool PositionBarrier::find(std::size_t& budget) {
-  while (advance(budget)) {
-    monitor_.check_interruption();
+bool PositionBarrier::find(std::size_t& budget, const Monitor& monitor) {
+  while (advance(budget, monitor)) {
+    monitor.check_interruption();
     budget -= std::min(budget, graph_.size() / 32);  // for the graph
   }
   return graph_.is_found();

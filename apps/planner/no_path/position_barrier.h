@@ -27,8 +27,9 @@ class PositionBarrier {
                   const Monitor& monitor = {});
 
   /// True if a barrier was found; false if there is none, as far as doubles can tell, or if it needs more than `budget`
-  /// boxes, which becomes what is left of it. In the latter case it may be called again, and goes on.
-  bool find(std::size_t& budget);
+  /// boxes, which becomes what is left of it. In the latter case it may be called again, and goes on. Throws
+  /// Interrupted when the monitor stops it.
+  bool find(std::size_t& budget, const Monitor& monitor = {});
 
   /// The boxes of a barrier that was found; to be called once, last.
   [[nodiscard]] PathProof::PoseCells take_written() {
@@ -57,7 +58,7 @@ class PositionBarrier {
   using FreeSamples = std::vector<std::uint32_t>;
 
   void add_samples();
-  void judge(std::span<const CellId> ids);
+  void judge(std::span<const CellId> ids, const Monitor& monitor);
   void judge(CellId id, Order& order, FreeSamples& free, const Monitor& monitor);
   void choose_axis(BarrierCell& cell, Judged& judged, Order& order, FreeSamples& free, const Monitor& monitor) const;
   void weigh(CellId id);
@@ -66,15 +67,14 @@ class PositionBarrier {
                              const Monitor& monitor) const;
   double effort_at(const BarrierCell& cell, const Vector3d& position, Order& order, FreeSamples& free,
                    const Monitor& monitor) const;
-  bool advance(std::size_t& budget);
-  bool cover(std::vector<CellId> ids, std::size_t& budget);
-  void add_open(CellId id, const OpenPose& open, std::size_t& budget);
+  bool advance(std::size_t& budget, const Monitor& monitor);
+  bool cover(std::vector<CellId> ids, std::size_t& budget, const Monitor& monitor);
+  void add_open(CellId id, const OpenPose& open, std::size_t& budget, const Monitor& monitor);
 
   const Orientations& orientations_;
   Rational3 reference_;
   std::vector<std::optional<ChartImage>> images_;  // of each chart
   BlockingPairs pairs_;
-  Monitor monitor_;
   // An orientation; those that are special, as a robot with right angles would have them, do not count in efforts.
   struct Sample {
     TurnedRobot robot;

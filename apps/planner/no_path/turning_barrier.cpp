@@ -17,7 +17,7 @@
 #include <utility>
 
 #include "apps/minkowski/minkowski.h"
-#include "apps/minkowski/sum/fixed_obstacles.h"
+#include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/no_path/blocking_pairs.h"
 #include "apps/planner/no_path/no_rigid_path.h"
 #include "apps/planner/no_path/pose_cover.h"
@@ -46,9 +46,7 @@ struct Sides {
 
 // The sides of each cell of a proof.
 std::vector<Sides> sides_of(const Scene& scene, const TurningProof& found, const Monitor& monitor) {
-  std::vector<Polyhedron> reachable;
-  for (const Polyhedron& obstacle : scene.obstacles) reachable.push_back(reachable_part(obstacle, scene, monitor));
-  const minkowski::FixedObstacles obstacles(reachable, scene.box, scene.contact == ContactRule::kAllow, monitor);
+  const minkowski::FixedObstacles obstacles = fixed_obstacles(scene, monitor);
   std::vector<Sides> result;
   for (const TurningProof::Cell& cell : found.cells) {
     std::vector<Mesh> robot;

@@ -77,15 +77,15 @@ class RigidPlanning {
     NoPathAnswer found;
     if (boxes > 0) {
       if (proofs_ == nullptr) {
-        proofs_ = std::make_unique<NoPathSearch>(checker_, question_.start, question_.goal, monitor_);
+        proofs_ = std::make_unique<NoPathSearch>(checker_, question_.start, question_.goal);
       }
-      found = proofs_->run(boxes);
+      found = proofs_->run(boxes, monitor_);
       // It goes on beyond its turn if it looks as if there was a proof. At once: where a search stops, some boxes are
       // lost.
       const std::size_t most = std::min(kLongestTurn * boxes, limits_.max_boxes);
       if (!found.proof && found.cells >= boxes && boxes < most && found.cells_left && *found.cells_left <= kFewLeft) {
         boxes = most;
-        found = proofs_->run(boxes);
+        found = proofs_->run(boxes, monitor_);
       }
     }
     answer_.boxes = found.cells;

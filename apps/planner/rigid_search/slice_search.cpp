@@ -8,6 +8,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <condition_variable>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <mutex>
 
 #include "apps/planner/path/path.h"
 #include "apps/planner/rigid_search/slice_tree.h"
@@ -19,12 +24,12 @@ namespace nef::planner {
 namespace {
 
 // How fine a round is: the grid's level, and how often arcs between its rotations are halved.
-struct Round {
+struct Fineness {
   unsigned level;
   unsigned depth;
 };
-constexpr std::array<Round, 10> kRounds{Round{0, 0}, {0, 1}, {0, 2}, {0, 3}, {0, 4},
-                                        {1, 1},      {1, 2}, {1, 3}, {2, 2}, {2, 3}};
+constexpr std::array<Fineness, 10> kRounds{Fineness{0, 0}, {0, 1}, {0, 2}, {0, 3}, {0, 4},
+                                           {1, 1},         {1, 2}, {1, 3}, {2, 2}, {2, 3}};
 
 }  // namespace
 
@@ -40,6 +45,10 @@ class SliceSearch::State {
                SliceTree(checker, fit_, metric_, slices_, question.goal, question.start)} {}
 
   std::optional<std::vector<RigidPose>> run(std::size_t max_slices, const Monitor& monitor) {
+    const bool at_once = is_light_ && monitor.threads() != 1;
+    if (at_once && !trees_[0].is_planted()) {
+      parallel_for(2, monitor, [&](std::size_t i, const Monitor& own) { trees_[i].prepare(own); });
+    }
     for (SliceTree& tree : trees_) {
       if (tree.is_planted()) continue;
       if (!tree.plant(monitor)) return std::nullopt;
@@ -51,11 +60,15 @@ class SliceSearch::State {
         for (SliceTree& tree : trees_) tree.add_steps(kRounds[round_].level);
       }
       is_begun_ = true;
-      while (!meeting_ && (trees_[0].has_steps() || trees_[1].has_steps())) {
-        const bool is_full = grow(max_slices, monitor);
-        if (is_full && made_.size() >= max_slices) return std::nullopt;
+      if (!meeting_ && has_steps()) {
+        if (at_once) {
+          AtOnce(*this, max_slices).run(monitor);
+        } else {
+          grow_in_turn(max_slices, monitor);
+        }
       }
       if (meeting_) return path(monitor);
+      if (is_full_) return std::nullopt;
     }
     return std::nullopt;
   }
@@ -71,42 +84,155 @@ class SliceSearch::State {
   [[nodiscard]] const std::vector<Quaternion>& symmetries() const { return slices_.symmetries(); }
 
  private:
-  // A step of each tree. True if there are not enough slices left for one.
-  bool grow(std::size_t max_slices, const Monitor& monitor) {
+  [[nodiscard]] bool has_steps() const { return trees_[0].has_steps() || trees_[1].has_steps(); }
+  [[nodiscard]] unsigned depth() const { return kRounds[round_].depth; }
+
+  // A step of each tree.
+  struct Steps {
+    std::array<std::size_t, 2> allowed{};  // slices
     std::array<SliceTree::Growth, 2> grown;
+  };
+
+  [[nodiscard]] Steps next_steps(std::size_t max_slices) const {
     const std::size_t left = max_slices - std::min(max_slices, made_.size());
     const bool are_two = trees_[0].has_steps() && trees_[1].has_steps();
-    const std::array<std::size_t, 2> allowed{are_two ? left - left / 2 : left, are_two ? left / 2 : left};
-    std::atomic<bool> is_over = false;  // the first tree has met the second one, whose step does not matter
-    const auto grow_tree = [&](std::size_t i, const Monitor& own) {
-      if (is_over || !trees_[i].has_steps()) return;
-      grown[i] = trees_[i].grow(trees_[1 - i], kRounds[round_].depth, made_, allowed[i], own);
-      if (grown[i].meeting && i == 0) is_over = true;
-    };
-    const auto grow_second = [&](const Monitor& own) {
-      const StopQuestion stop([&] { return is_over.load(); }, own);
-      try {
-        grow_tree(1, stop.monitor());
-      } catch (const Interrupted&) {
-        if (!is_over) throw;
-      }
-    };
-    if (are_two && is_light_) {
-      parallel_calls(monitor, {[&](const Monitor& own) { grow_tree(0, own); }, grow_second});
-    } else {
-      grow_tree(0, monitor);
-      grow_tree(1, monitor);
-    }
+    return {{are_two ? left - left / 2 : left, are_two ? left / 2 : left}, {}};
+  }
+
+  void grow(std::size_t i, Steps& steps, const Monitor& monitor, const std::function<bool()>& meanwhile = {}) {
+    steps.grown[i] = trees_[i].grow(trees_[1 - i], depth(), made_, steps.allowed[i], monitor, meanwhile);
+  }
+
+  // False if there are to be no others: the trees have met, have no steps, or there are not enough slices.
+  bool end_steps(Steps& steps, std::size_t max_slices) {
     for (std::size_t i = 0; i < 2 && !meeting_; ++i) {
-      made_.merge(grown[i].slices);
-      if (grown[i].meeting) {
-        meeting_ = std::move(grown[i].meeting);
+      made_.merge(steps.grown[i].slices);
+      if (steps.grown[i].meeting) {
+        meeting_ = std::move(steps.grown[i].meeting);
         meeting_of_ = i;
       }
     }
     if (!meeting_) settle();
-    return grown[0].is_full || grown[1].is_full;
+    is_full_ = (steps.grown[0].is_full || steps.grown[1].is_full) && made_.size() >= max_slices;
+    return !meeting_ && !is_full_ && has_steps();
   }
+
+  void grow_in_turn(std::size_t max_slices, const Monitor& monitor) {
+    Steps steps;
+    do {
+      steps = next_steps(max_slices);
+      for (std::size_t i = 0; i < 2 && !steps.grown[0].meeting; ++i) {
+        if (trees_[i].has_steps()) grow(i, steps, monitor);
+      }
+    } while (end_steps(steps, max_slices));
+  }
+
+  // Two threads take the steps of both trees. One that has none to take does what later steps will ask for, so that it
+  // is known when they do.
+  class AtOnce {
+   public:
+    AtOnce(State& state, std::size_t max_slices) : state_(state), max_slices_(max_slices) { begin(); }
+
+    void run(const Monitor& monitor) {
+      const auto work = [this](const Monitor& own) { take_work(own); };
+      parallel_calls(monitor, {work, work});
+      for (const std::exception_ptr& failure : failures_) {
+        if (failure) std::rethrow_exception(failure);
+      }
+    }
+
+   private:
+    enum class Stage : std::uint8_t { kWaiting, kTaken, kDone };
+
+    void begin() {
+      steps_ = state_.next_steps(max_slices_);
+      for (std::size_t i = 0; i < 2; ++i) stages_[i] = state_.trees_[i].has_steps() ? Stage::kWaiting : Stage::kDone;
+      is_decided_ = false;
+      if (idle_ > 0 && ahead_.empty()) {
+        for (std::size_t i = 0; i < 2; ++i) foresee(i);
+      }
+    }
+
+    // The tree does not grow now.
+    void foresee(std::size_t i) {
+      constexpr std::size_t kMost = 8;
+      for (const SliceTree::Work& work : state_.trees_[i].foreseen(state_.depth(), kMost)) ahead_.emplace_back(i, work);
+    }
+
+    void take_work(const Monitor& monitor) {
+      std::unique_lock lock(mutex_);
+      while (!is_over_) {
+        const auto waiting = std::find(stages_.begin(), stages_.end(), Stage::kWaiting);
+        if (waiting != stages_.end()) {
+          make_step(static_cast<std::size_t>(waiting - stages_.begin()), lock, monitor);
+        } else if (!work_ahead(lock, monitor)) {
+          ++idle_;
+          changed_.wait(lock);
+          --idle_;
+        }
+      }
+    }
+
+    void make_step(std::size_t i, std::unique_lock<std::mutex>& lock, const Monitor& monitor) {
+      stages_[i] = Stage::kTaken;
+      lock.unlock();
+      std::exception_ptr failure;
+      try {
+        // Once the first tree has met the second one, that one's step does not matter.
+        const StopQuestion stop([&] { return is_over_ || (i == 1 && is_decided_); }, monitor);
+        state_.grow(i, steps_, stop.monitor(), [&] {
+          std::unique_lock again(mutex_);
+          return work_ahead(again, stop.monitor());
+        });
+      } catch (...) {
+        failure = std::current_exception();
+      }
+      lock.lock();
+      stages_[i] = Stage::kDone;
+      if (i == 1 && is_decided_) failure = nullptr;
+      if (failure) {
+        failures_[i] = failure;
+        is_over_ = true;
+      }
+      if (i == 0 && steps_.grown[0].meeting) is_decided_ = true;
+      if (!is_over_ && stages_[1 - i] == Stage::kWaiting && is_decided_) stages_[1 - i] = Stage::kDone;
+      if (!is_over_ && stages_[1 - i] == Stage::kDone) {
+        is_over_ = !state_.end_steps(steps_, max_slices_);
+        if (!is_over_) begin();
+      }
+      changed_.notify_all();
+    }
+
+    // False if there is nothing to do.
+    bool work_ahead(std::unique_lock<std::mutex>& lock, const Monitor& monitor) {
+      for (std::size_t i = 0; i < 2 && ahead_.empty(); ++i) {
+        if (stages_[i] != Stage::kTaken) foresee(i);
+      }
+      if (ahead_.empty()) return false;
+      const auto [tree, work] = ahead_.front();
+      ahead_.pop_front();
+      lock.unlock();
+      try {
+        const StopQuestion stop([&] { return is_over_.load(); }, monitor);
+        state_.trees_[tree].do_ahead(work, stop.monitor());
+      } catch (...) {  // whoever needs it will see
+      }
+      lock.lock();
+      return true;
+    }
+
+    State& state_;
+    std::size_t max_slices_;
+    std::mutex mutex_;  // of all but the trees' steps and the work ahead
+    std::condition_variable changed_;
+    Steps steps_;
+    std::array<Stage, 2> stages_{};
+    std::array<std::exception_ptr, 2> failures_;
+    std::atomic<bool> is_decided_ = false;  // the first tree has met the second one in this step
+    std::atomic<bool> is_over_ = false;
+    std::deque<std::pair<std::size_t, SliceTree::Work>> ahead_;  // and for which tree
+    unsigned idle_ = 0;                                          // threads that have nothing to do
+  };
 
   // Both trees get to know each other.
   void settle() {
@@ -157,6 +283,7 @@ class SliceSearch::State {
   std::set<Quaternion> made_;       // the slices that both have asked for, as Slices::shared names them
   std::size_t round_ = 0;
   bool is_begun_ = false;
+  bool is_full_ = false;  // there were not enough slices for the next steps
   std::optional<SliceTree::Meeting> meeting_;
   std::size_t meeting_of_ = 0;  // the tree whose meeting it is
 };

@@ -64,7 +64,7 @@ void SliceTree::add_step(NodeIndex index, const Quaternion& rotation) {
   for (const Vector3d& p : node.part().rounded) away = std::min(away, (p - goal).norm());
   const double cost =
       away + reach_ * (angle_between(rotation, goal_.quaternion) + angle_between(rotation, node.rotation) / 4);
-  steps_.push({cost, index, rotation});
+  steps_.insert({cost, index, rotation});
 }
 
 std::optional<SliceTree::NodeIndex> SliceTree::find(const Place& place) const {
@@ -76,12 +76,12 @@ std::optional<SliceTree::NodeIndex> SliceTree::find(const Place& place) const {
 }
 
 SliceTree::Growth SliceTree::grow(const SliceTree& other, unsigned depth, const std::set<Quaternion>& made,
-                                  std::size_t allowed, const Monitor& monitor) {
+                                  std::size_t allowed, const Monitor& monitor, const std::function<bool()>& meanwhile) {
   Growth growth;
-  const Step step = steps_.top();
-  steps_.pop();
-  extend(step.node, step.rotation, depth, {other, made, allowed, monitor, growth});
-  if (growth.is_full) steps_.push(step);
+  const Step step = *steps_.begin();
+  steps_.erase(steps_.begin());
+  extend(step.node, step.rotation, depth, {other, made, allowed, monitor, meanwhile, growth});
+  if (growth.is_full) steps_.insert(step);
   return growth;
 }
 
@@ -108,7 +108,7 @@ bool SliceTree::extend(NodeIndex from, const Quaternion& rotation, unsigned dept
   }
   bool reached = false;
   bool is_open = false;  // a component nearby is not in the tree
-  const Slice& slice = slices_.at(rotation, context.monitor);
+  const Slice& slice = slices_.at(rotation, context.monitor, context.meanwhile);
   for (std::size_t component = 0; component < slice.components.size() && !growth.meeting; ++component) {
     switch (join(from, rotation, slice, component, context)) {
       case Joined::kYes:
@@ -150,14 +150,10 @@ bool SliceTree::extend_by_halves(NodeIndex from, const Quaternion& rotation, uns
 SliceTree::Joined SliceTree::join(NodeIndex from, const Quaternion& rotation, const Slice& slice, std::size_t component,
                                   const Context& context) {
   if (find({rotation, component})) return Joined::kYes;
-  const auto [tried, is_new] = tried_.try_emplace({from, rotation, component}, Joined::kNo);
-  if (!is_new) return tried->second;
-  const std::vector<Ends> ends = nearest_points(nodes_[from], slice, component);
-  if (ends.empty() || ends.front().distance > reach_ * angle_between(nodes_[from].rotation, rotation)) {
-    return tried->second = Joined::kTooFar;
-  }
-  std::vector<RigidPose> joint = first_fit(nodes_[from], rotation, slice, component, ends, context.monitor);
-  if (joint.empty()) return Joined::kNo;
+  Joint& found = joint_of({from, &nodes_[from], rotation, &slice, component}, context.monitor, context.meanwhile);
+  if (found.is_far) return Joined::kTooFar;
+  if (found.poses.empty()) return Joined::kNo;
+  std::vector<RigidPose> joint = std::move(found.poses);
   const auto there = context.other.index_.find({rotation, component});
   if (there != context.other.index_.end()) {
     context.growth.meeting = Meeting{from, there->second, std::move(joint)};
@@ -168,6 +164,78 @@ SliceTree::Joined SliceTree::join(NodeIndex from, const Quaternion& rotation, co
   nodes_.push_back({rotation, &slice, component, from, std::move(joint)});
   add_steps(node, level_);
   return Joined::kYes;
+}
+
+SliceTree::Joint& SliceTree::joint_of(const Work& work, const Monitor& monitor,
+                                      const std::function<bool()>& meanwhile) {
+  return joints_.at(
+      {work.index, work.rotation, work.component}, [&] { return made_joint(work, monitor); }, meanwhile);
+}
+
+SliceTree::Joint SliceTree::made_joint(const Work& work, const Monitor& monitor) const {
+  const std::vector<Ends> ends = nearest_points(*work.node, *work.slice, work.component);
+  if (ends.empty() || ends.front().distance > reach_ * angle_between(work.node->rotation, work.rotation)) {
+    return {true, {}};
+  }
+  return {false, first_fit(*work.node, work.rotation, *work.slice, work.component, ends, monitor)};
+}
+
+std::vector<SliceTree::Work> SliceTree::foreseen(unsigned depth, std::size_t most) {
+  std::vector<Work> result;
+  constexpr std::size_t kSteps = 64;
+  std::size_t seen = 0;
+  for (auto step = steps_.begin(); step != steps_.end() && result.size() < most && seen < kSteps; ++step, ++seen) {
+    if (seen == 0) continue;
+    if (auto work = foreseen(step->node, step->rotation, depth)) result.push_back(*work);
+  }
+  if (result.size() < most && !steps_.empty()) {
+    if (auto work = foreseen(steps_.begin()->node, steps_.begin()->rotation, depth)) result.push_back(*work);
+  }
+  return result;
+}
+
+// As extend and extend_by_halves will do it, up to where it depends on what is not known yet.
+std::optional<SliceTree::Work> SliceTree::foreseen(NodeIndex from, const Quaternion& rotation, unsigned depth) {
+  const auto slice = slices_.known(rotation);
+  if (slice.is_being_made) return std::nullopt;
+  Work work{from, &nodes_[from], rotation, slice.value};
+  if (slice.value == nullptr) return work;
+  bool is_open = false;
+  for (; work.component < slice.value->components.size(); ++work.component) {
+    if (find({rotation, work.component})) continue;
+    const auto joint = joints_.known({from, rotation, work.component});
+    if (joint.is_being_made) return std::nullopt;
+    if (joint.value == nullptr) return work;
+    is_open = is_open || (!joint.value->is_far && joint.value->poses.empty());
+  }
+  if (!is_open || depth == 0) return std::nullopt;
+  const auto halved = halved_.find({from, rotation});
+  if (halved != halved_.end() && halved->second >= depth) return std::nullopt;
+  return foreseen_by_halves(from, rotation, depth);
+}
+
+std::optional<SliceTree::Work> SliceTree::foreseen_by_halves(NodeIndex from, const Quaternion& rotation,
+                                                             unsigned depth) {
+  const Quaternion begin = nodes_[from].rotation;
+  if (angle_between(begin, rotation) < kSmallestArc) return std::nullopt;
+  const Quaternion middle = canonical(rotation_at(begin, rotation, Rational(1, 2)));
+  if (auto work = foreseen(from, middle, depth - 1)) return work;
+  const Slice* slice = slices_.known(middle).value;
+  for (std::size_t i = 0; slice != nullptr && i < slice->components.size(); ++i) {
+    const std::optional<NodeIndex> node = find({middle, i});
+    if (!node) continue;
+    if (auto work = foreseen(*node, rotation, depth - 1)) return work;
+  }
+  return std::nullopt;
+}
+
+void SliceTree::do_ahead(const Work& work, const Monitor& monitor) {
+  if (work.slice == nullptr) {
+    const auto known = slices_.known(work.rotation);
+    if (known.value == nullptr && !known.is_being_made) (void)slices_.at(work.rotation, monitor);
+  } else if (!joints_.known({work.index, work.rotation, work.component}).is_being_made) {
+    (void)joint_of(work, monitor);
+  }
 }
 
 // Some pairs of points that are near each other, those first at which the robot may turn on the spot.

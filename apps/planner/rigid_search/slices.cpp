@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+//
+// A slice is the complement of sums of convex pieces: those of a solid robot and of the obstacles are made once and
+// only turned for a slice, a fifth of the time of `elbow`. Other robots, and bodies of many pieces, whose sum may be
+// found without pieces, are summed whole for each slice. Points of a component are spread over its zones.
 #include "apps/planner/rigid_search/slices.h"
 
 #include <algorithm>
 
+#include "apps/minkowski/minkowski.h"
 #include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/rigid_search/rotations.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/construct/construct.h"
 
 namespace nef::planner {
@@ -70,10 +76,23 @@ Slices::Slices(const Scene& scene, const Monitor& monitor) : scene_(scene) {
   scene_.turns_freely = false;
   scene_.start.reset();
   scene_.goal.reset();
+  if (scene_.robot.is_regular()) {
+    obstacles_ = fixed_obstacles(scene_, monitor);
+    for (minkowski::ConvexCell& cell : minkowski::decompose(scene_.robot, monitor)) {
+      if (cell.dimension == 3) pieces_.push_back(std::move(cell.mesh));
+    }
+    constexpr std::size_t kFewPairs = 100;  // as minkowski::configuration_space has it
+    if (obstacles_->solid_count() * pieces_.size() > kFewPairs) obstacles_.reset();
+  }
   const auto box = bounding_box(scene_.robot);
-  for (const Quaternion& q : rotations_of_cube()) {
-    const Polyhedron turned = transform(scene_.robot, map_of({Rational3{}, q}), monitor);
-    if (bounding_box(turned) == box && equal(turned, scene_.robot)) symmetries_.push_back(q);
+  const std::vector<Quaternion> rotations = rotations_of_cube();
+  std::vector<char> is_symmetry(rotations.size(), 0);
+  parallel_for(rotations.size(), monitor, [&](std::size_t i, const Monitor& own) {
+    const Polyhedron turned = transform(scene_.robot, map_of({Rational3{}, rotations[i]}), own);
+    is_symmetry[i] = bounding_box(turned) == box && equal(turned, scene_.robot) ? 1 : 0;
+  });
+  for (std::size_t i = 0; i < rotations.size(); ++i) {
+    if (is_symmetry[i] != 0) symmetries_.push_back(rotations[i]);
   }
 }
 
@@ -85,28 +104,36 @@ Quaternion Slices::least_alike(const Quaternion& rotation) const {
   return smallest;
 }
 
-Slices::Entry& Slices::entry_of(const Quaternion& rotation) {
+const Quaternion& Slices::shared(const Quaternion& rotation) {
   const std::scoped_lock lock(mutex_);
-  Entry*& entry = entries_[rotation];
-  if (entry == nullptr) {
-    const Quaternion least = least_alike(rotation);
-    entry = &slices_[least];
-    entry->rotation = least;
-  }
-  return *entry;
+  const auto [place, is_new] = shared_.try_emplace(rotation);
+  if (is_new) place->second = least_alike(rotation);
+  return place->second;
 }
 
-const Slice& Slices::at(const Quaternion& rotation, const Monitor& monitor) {
-  Entry& entry = entry_of(rotation);
-  std::call_once(entry.is_made, [&] { entry.slice = made_at(entry.rotation, monitor); });
-  return entry.slice;
+const Slice& Slices::at(const Quaternion& rotation, const Monitor& monitor, const std::function<bool()>& meanwhile) {
+  const Quaternion& least = shared(rotation);
+  return slices_.at(
+      least, [&] { return made_at(least, monitor); }, meanwhile);
+}
+
+Polyhedron Slices::free_positions_at(const Quaternion& rotation, const Monitor& monitor) const {
+  const AffineMap turn = map_of({Rational3{}, rotation});
+  if (obstacles_) {
+    std::vector<Mesh> turned = pieces_;
+    for (Mesh& piece : turned) {
+      for (Rational3& v : piece.vertices) v = turn(v);
+    }
+    return obstacles_->free_positions(turned, monitor);
+  }
+  Scene turned = scene_;
+  turned.robot = transform(scene_.robot, turn, monitor);
+  return free_positions(turned, monitor);
 }
 
 Slice Slices::made_at(const Quaternion& rotation, const Monitor& monitor) const {
-  Scene turned = scene_;
-  turned.robot = transform(scene_.robot, map_of({Rational3{}, rotation}), monitor);
   Slice slice;
-  slice.free = std::make_shared<const FreeSpace>(free_positions(turned, monitor));
+  slice.free = std::make_shared<const FreeSpace>(free_positions_at(rotation, monitor));
   const FreeSpace& free = *slice.free;
   if (free.complex().vertex_count() == 0) {  // all of space or nothing
     const CellId all = free.locate(ExactPoint(Rational3{}));

@@ -5,15 +5,18 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
 
+#include "apps/minkowski/sum/fixed_obstacles.h"
 #include "apps/planner/free_space/free_space.h"
 #include "apps/planner/intersection/vectors.h"
 #include "apps/planner/rigid/motion_checker.h"
+#include "apps/planner/rigid_search/made_once.h"
 #include "apps/planner/scene/scene.h"
 #include "nef/base/monitor.h"
 
@@ -52,30 +55,31 @@ class Slices {
   explicit Slices(const Scene& scene, const Monitor& monitor = {});
 
   /// The slice of a canonical quaternion (rotations.h). A Minkowski sum of all obstacles with the robot, and a roadmap.
-  const Slice& at(const Quaternion& rotation, const Monitor& monitor);
-  /// The least of the canonical quaternions whose slice is that of a rotation.
-  [[nodiscard]] const Quaternion& shared(const Quaternion& rotation) { return entry_of(rotation).rotation; }
+  /// `meanwhile`: as that of MadeOnce::at.
+  const Slice& at(const Quaternion& rotation, const Monitor& monitor, const std::function<bool()>& meanwhile = {});
+  /// What is known of that slice without making it, or waiting for it.
+  [[nodiscard]] MadeOnce<Quaternion, Slice>::Known known(const Quaternion& rotation) {
+    return slices_.known(shared(rotation));
+  }
+  /// The least of the canonical quaternions whose slice is that of a rotation. It stays where it is.
+  [[nodiscard]] const Quaternion& shared(const Quaternion& rotation);
   /// Rotations of the robot, as it is in its own file, onto itself: at least (1, 0, 0, 0).
   [[nodiscard]] const std::vector<Quaternion>& symmetries() const { return symmetries_; }
 
  private:
-  // A slice, once it is made, and the least rotation of those that share it.
-  struct Entry {
-    Quaternion rotation;
-    std::once_flag is_made;
-    Slice slice;
-  };
-
-  Entry& entry_of(const Quaternion& rotation);
   [[nodiscard]] Quaternion least_alike(const Quaternion& rotation) const;
 
+  [[nodiscard]] Polyhedron free_positions_at(const Quaternion& rotation, const Monitor& monitor) const;
   [[nodiscard]] Slice made_at(const Quaternion& rotation, const Monitor& monitor) const;
 
   Scene scene_;
+  // Of a solid robot, if there are few pairs of convex pieces: both sides cut up once, instead of for each slice.
+  std::optional<minkowski::FixedObstacles> obstacles_;
+  std::vector<Mesh> pieces_;
   std::vector<Quaternion> symmetries_;
-  std::mutex mutex_;  // of the tables, not of the slices
-  std::map<Quaternion, Entry> slices_;
-  std::map<Quaternion, Entry*> entries_;  // of all rotations that were asked for
+  MadeOnce<Quaternion, Slice> slices_;  // by the least of the rotations that share one
+  std::mutex mutex_;                    // of the other table
+  std::map<Quaternion, Quaternion> shared_;
 };
 
 }  // namespace nef::planner

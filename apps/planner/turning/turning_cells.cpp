@@ -8,17 +8,11 @@
 
 #include <algorithm>
 
-#include "apps/planner/scene/scene.h"
+#include "apps/planner/free_space/free_positions.h"
 #include "nef/base/error.h"
 
 namespace nef::planner {
 namespace {
-
-minkowski::FixedObstacles fixed_obstacles(const Scene& scene, const Monitor& monitor) {
-  std::vector<Polyhedron> obstacles;
-  for (const Polyhedron& obstacle : scene.obstacles) obstacles.push_back(reachable_part(obstacle, scene, monitor));
-  return {obstacles, scene.box, scene.contact == ContactRule::kAllow, monitor};
-}
 
 // For each component of one free space the component of a larger one that holds it.
 std::vector<std::uint32_t> holders(const FreeSpace& small, const FreeSpace& large, const Monitor& monitor) {

@@ -2,13 +2,14 @@
 //
 // A graph has the components of slices as nodes. Bridges (turns that are proved free) are edges of cost 0; two nodes in
 // one component of an inner free space are joined at cost 1, as a turn that may be possible. A search in order of cost
-// (a double-ended queue) gives a way with the fewest open steps. No way is a proof; a way without open steps is a path.
+// gives a way with the fewest open steps. No way is a proof; a way without open steps is a path.
 // Otherwise open cells get their own inner robot, then their bridges, and are split in the end, at an angle of parallel
 // faces if there is one.
 #include "apps/planner/turning/turning_search.h"
 
 #include <algorithm>
-#include <deque>
+#include <array>
+#include <queue>
 #include <set>
 
 #include "apps/planner/path/path.h"
@@ -18,7 +19,6 @@
 #include "nef/base/error.h"
 #include "nef/base/interruption.h"
 #include "nef/base/monitor.h"
-#include "nef/base/union_find.h"
 #include "nef/geometry/vectors.h"
 #include "nef/number/floor.h"
 
@@ -33,6 +33,15 @@ using InnerComponents = std::set<InnerComponent>;
 struct Step {
   Turn cell;
   Node from = 0, to = 0;
+};
+
+// How a node was come to.
+struct Arrival {
+  std::array<std::size_t, 3> cost;  // open steps, bridges, and which one was found first
+  Node node, from;
+  std::optional<Turn> cell;                                                 // of an open step
+  std::uint32_t bridge;                                                     // else
+  bool operator<(const Arrival& other) const { return other.cost < cost; }  // the queue begins with the largest
 };
 
 class TurningSearch {
@@ -64,18 +73,18 @@ class TurningSearch {
     make_first_cells();
     while (true) {
       InnerComponents entered;
-      const std::optional<std::vector<Step>> steps = steps_in_question(start, goal, entered);
-      if (!steps) {
+      const std::optional<Way> way = best_way(start, goal, entered);
+      if (!way) {
         answer_.proof = proof_of(entered);
         return finished(TurningAnswer::Status::kInfeasible);
       }
-      if (steps->empty()) {
-        answer_.path = path_of(way_over_bridges(start, goal));
+      if (way->open.empty()) {
+        answer_.path = path_of(way->bridges);
         return finished(TurningAnswer::Status::kPath);
       }
       answer_.open_ranges.clear();
-      for (const Step& step : *steps) answer_.open_ranges.push_back({step.cell, cells_.cells().at(step.cell).high});
-      if (!refine(*steps)) return finished(TurningAnswer::Status::kUndecided);
+      for (const Step& step : way->open) answer_.open_ranges.push_back({step.cell, cells_.cells().at(step.cell).high});
+      if (!refine(way->open)) return finished(TurningAnswer::Status::kUndecided);
     }
   }
 
@@ -127,13 +136,20 @@ class TurningSearch {
     return best.value_or(middle);
   }
 
-  // A way from start to goal through components of inner free spaces, with as few steps as can be that no bridges
-  // grant, and those steps of it; or nothing, and then `entered` are the components that are joined to the start.
-  [[nodiscard]] std::optional<std::vector<Step>> steps_in_question(Node start, Node goal, InnerComponents& entered) {
-    std::vector<std::vector<Node>> bridged(cells_.node_count());
-    for (const Bridge& bridge : cells_.bridges()) {
-      bridged[bridge.from].push_back(bridge.to);
-      bridged[bridge.to].push_back(bridge.from);
+  // A way through components of inner free spaces, and over bridges.
+  struct Way {
+    std::vector<Step> open;       // steps that no bridges grant, by their cells
+    std::vector<Bridge> bridges;  // in the direction of the way
+  };
+
+  // A way from start to goal with as few open steps as can be, and of those one with the fewest bridges; or nothing,
+  // and then `entered` are the components that are joined to the start.
+  [[nodiscard]] std::optional<Way> best_way(Node start, Node goal, InnerComponents& entered) {
+    const std::vector<Bridge>& bridges = cells_.bridges();
+    std::vector<std::vector<std::uint32_t>> bridges_at(cells_.node_count());
+    for (std::uint32_t b = 0; b < bridges.size(); ++b) {
+      bridges_at[bridges[b].from].push_back(b);
+      bridges_at[bridges[b].to].push_back(b);
     }
     std::map<InnerComponent, std::vector<Node>> members;
     std::vector<std::vector<InnerComponent>> inner(cells_.node_count());
@@ -146,77 +162,46 @@ class TurningSearch {
         }
       }
     }
-    std::vector<std::optional<Step>> over(cells_.node_count());  // by what step, if it was in question
-    std::vector<Node> from(cells_.node_count(), kNoNode);
-    std::vector<bool> done(cells_.node_count(), false);
-    struct Entry {
-      Node node, from;
-      std::optional<Turn> cell;
-    };
-    std::deque<Entry> queue{{start, start, {}}};
-    while (!queue.empty() && !done[goal]) {
-      const Entry entry = queue.front();
-      queue.pop_front();
-      if (done[entry.node]) continue;
-      done[entry.node] = true;
-      from[entry.node] = entry.from;
-      if (entry.cell) over[entry.node] = {*entry.cell, entry.from, entry.node};
-      for (const Node next : bridged[entry.node]) {
-        if (!done[next]) queue.push_front({next, entry.node, {}});
+    std::vector<std::optional<Arrival>> arrived(cells_.node_count());
+    std::priority_queue<Arrival> queue;
+    std::size_t found = 0;
+    queue.push({{0, 0, 0}, start, start, {}, 0});
+    while (!queue.empty() && !arrived[goal]) {
+      const Arrival at = queue.top();
+      queue.pop();
+      if (arrived[at.node]) continue;
+      arrived[at.node] = at;
+      for (const std::uint32_t b : bridges_at[at.node]) {
+        const Node next = bridges[b].from == at.node ? bridges[b].to : bridges[b].from;
+        if (!arrived[next]) queue.push({{at.cost[0], at.cost[1] + 1, ++found}, next, at.node, {}, b});
       }
-      for (const InnerComponent& component : inner[entry.node]) {
+      for (const InnerComponent& component : inner[at.node]) {
         if (!entered.insert(component).second) continue;
         for (const Node next : members[component]) {
-          if (!done[next]) queue.push_back({next, entry.node, component.first});
+          if (!arrived[next]) queue.push({{at.cost[0] + 1, at.cost[1], ++found}, next, at.node, component.first, 0});
         }
       }
     }
-    if (!done[goal]) return std::nullopt;
-    std::map<Turn, Step> steps;
-    for (Node node = goal; node != start; node = from[node]) {
-      if (over[node]) steps[over[node]->cell] = *over[node];
-    }
-    std::vector<Step> result;
-    for (const auto& [cell, step] : steps) result.push_back(step);
-    return result;
+    if (!arrived[goal]) return std::nullopt;
+    return way_of(arrived, start, goal);
   }
 
-  // The bridges of a shortest way from a component to another one; there must be one.
-  [[nodiscard]] std::vector<Bridge> way_over_bridges(Node start, Node goal) const {
-    const std::vector<Bridge>& bridges = cells_.bridges();
-    std::vector<std::vector<std::uint32_t>> at(cells_.node_count());
-    for (std::uint32_t b = 0; b < bridges.size(); ++b) {
-      at[bridges[b].from].push_back(b);
-      at[bridges[b].to].push_back(b);
-    }
-    std::vector<std::uint32_t> over(cells_.node_count(), kNoNode);
-    std::vector<Node> queue{start};
-    std::vector<bool> seen(cells_.node_count(), false);
-    seen[start] = true;
-    const auto other_end = [](const Bridge& bridge, Node node) {
-      return bridge.from == node ? bridge.to : bridge.from;
-    };
-    for (std::size_t i = 0; i < queue.size() && !seen[goal]; ++i) {
-      for (const std::uint32_t b : at[queue[i]]) {
-        const Node next = other_end(bridges[b], queue[i]);
-        if (seen[next]) continue;
-        seen[next] = true;
-        over[next] = b;
-        queue.push_back(next);
+  [[nodiscard]] Way way_of(const std::vector<std::optional<Arrival>>& arrived, Node start, Node goal) const {
+    Way way;
+    std::map<Turn, Step> open;
+    for (Node node = goal; node != start; node = arrived[node]->from) {
+      const Arrival& at = *arrived[node];
+      if (at.cell) {
+        open[*at.cell] = {*at.cell, at.from, node};
+        continue;
       }
+      Bridge& bridge = way.bridges.emplace_back(cells_.bridges()[at.bridge]);
+      if (bridge.to == node) continue;
+      std::swap(bridge.from, bridge.to);
+      std::swap(bridge.from_turn, bridge.to_turn);
     }
-    NEF_ASSERT(seen[goal]);
-    std::vector<Bridge> way;
-    for (Node node = goal; node != start;) {
-      Bridge bridge = bridges[over[node]];
-      if (bridge.to != node) {
-        std::swap(bridge.from, bridge.to);
-        std::swap(bridge.from_turn, bridge.to_turn);
-      }
-      way.push_back(bridge);
-      node = bridge.from;
-    }
-    std::reverse(way.begin(), way.end());
+    for (const auto& [cell, step] : open) way.open.push_back(step);
+    std::reverse(way.bridges.begin(), way.bridges.end());
     return way;
   }
 

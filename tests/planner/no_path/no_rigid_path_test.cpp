@@ -340,8 +340,8 @@ TEST_CASE("a search that is out of boxes ends, also where all that it looks at i
   const RigidQuestion question = rigid_question_of(scene);
   const MotionChecker checker = MotionChecker::of_scene(scene);
   const TimeLimit limit(100);
-  NoPathSearch search(checker, question.start, question.goal, limit.monitor());
-  CHECK_FALSE(search.run(225).proof);
+  NoPathSearch search(checker, question.start, question.goal);
+  CHECK_FALSE(search.run(225, limit.monitor()).proof);
   CHECK(limit.passed() < 100);
 }
 

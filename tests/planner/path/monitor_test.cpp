@@ -103,7 +103,7 @@ TEST_CASE("a monitor stops each part of a search for poses") {
   CHECK_THROWS_AS(images_of_charts(claim, orientations, {0, 0, 0}, stopped), Interrupted);
   const WeightedGraph graph{{{1}, {0, 2}, {1}}, {1, 1, 1}};
   CHECK_THROWS_AS(minimum_node_cut(graph, 0, 2, stopped), Interrupted);
-  CHECK_FALSE(NoPathSearch(checker, question.start, question.goal, stopped).run(100).proof);
+  CHECK_FALSE(NoPathSearch(checker, question.start, question.goal).run(100, stopped).proof);
 }
 
 TEST_CASE("who watches is asked for each pair of pieces while the first box of a barrier is judged") {
@@ -123,7 +123,7 @@ TEST_CASE("who watches is asked for each pair of pieces while the first box of a
     ++asked;
     return false;
   });
-  NoPathSearch(checker, question.start, question.goal, counting.monitor()).run(1);
+  NoPathSearch(checker, question.start, question.goal).run(1, counting.monitor());
   CHECK(asked > 2 * kBoxes / 8);  // a question asks every eighth time
 }
 

@@ -6,21 +6,27 @@
 #include "apps/planner/rigid_search/rigid_planning.h"
 
 #include <algorithm>
+#include <atomic>
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <set>
+#include <thread>
 
 #include "apps/planner/free_space/collision.h"
+#include "apps/planner/free_space/free_positions.h"
 #include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid_search/certified_trees.h"
 #include "apps/planner/rigid_search/first_true.h"
+#include "apps/planner/rigid_search/made_once.h"
 #include "apps/planner/rigid_search/pose_metric.h"
 #include "apps/planner/rigid_search/rotations.h"
 #include "apps/planner/rigid_search/shorten_poses.h"
 #include "apps/planner/rigid_search/slice_search.h"
 #include "apps/planner/rigid_search/slices.h"
 #include "nef/base/error.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/base/timing/time_limit.h"
 #include "tests/planner/command_helpers.h"
 #include "tests/planner/scene_helpers.h"
@@ -106,12 +112,58 @@ TEST_CASE("A bar turns round an elbow in x, y and z with .2 % of slack", "[rigid
   const RigidAnswer answer = answer_of(scene);
   check_path(scene, answer, 60);
   CHECK(answer.slices > 0);
-  const RigidAnswer again = answer_of(scene);  // the same in every run
-  REQUIRE(again.path.size() == answer.path.size());
-  for (std::size_t i = 0; i < answer.path.size(); ++i) {
-    CHECK(again.path[i].position == answer.path[i].position);
-    CHECK(again.path[i].quaternion == answer.path[i].quaternion);
+  for (const unsigned threads : {1U, 2U, 5U}) {  // the same in every run
+    const RigidAnswer again = answer_of(scene, {}, Monitor().on_threads(threads));
+    CHECK(again.samples == answer.samples);
+    CHECK(again.slices == answer.slices);
+    CHECK(again.boxes == answer.boxes);
+    REQUIRE(again.path.size() == answer.path.size());
+    for (std::size_t i = 0; i < answer.path.size(); ++i) {
+      CHECK(again.path[i].position == answer.path[i].position);
+      CHECK(again.path[i].quaternion == answer.path[i].quaternion);
+    }
   }
+}
+
+TEST_CASE("A search through slices that is out of slices goes on with more, on any number of threads", "[rigid]") {
+  const Scene scene = load("rigid/elbow");
+  const MotionChecker checker = MotionChecker::of_scene(scene);
+  std::vector<std::size_t> made;
+  for (const unsigned threads : {1U, 2U, 4U}) {
+    const Monitor monitor = Monitor().on_threads(threads);
+    SliceSearch search(scene, rigid_question_of(scene), checker, monitor);
+    for (const std::size_t most : {1, 2, 5, 9, 16}) {
+      CHECK_FALSE(search.run(most, monitor));
+      made.push_back(search.slices());
+    }
+    const auto path = search.run(40, monitor);
+    REQUIRE(path);
+    made.push_back(path->size());
+  }
+  for (std::size_t i = 6; i < made.size(); ++i) CHECK(made[i] == made[i - 6]);
+}
+
+TEST_CASE("Values are made once, by whoever asks first", "[rigid]") {
+  MadeOnce<int, int> values;
+  CHECK(values.known(3).value == nullptr);
+  CHECK_THROWS_AS(values.at(3, []() -> int { throw InputError("not now"); }), InputError);
+  CHECK(values.known(3).value == nullptr);
+  std::atomic<int> made = 0;
+  std::atomic<int> wrong = 0;
+  std::atomic<int> meanwhile = 0;
+  parallel_for(100, Monitor().on_threads(4), [&](std::size_t i, const Monitor&) {
+    const int key = static_cast<int>(i % 5);
+    const auto make = [&] {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      ++made;
+      return key * key;
+    };
+    if (values.at(key, make, [&] { return ++meanwhile < 50; }) != key * key) ++wrong;
+  });
+  CHECK(wrong == 0);
+  CHECK(made == 5);
+  REQUIRE(values.known(3).value != nullptr);
+  CHECK(*values.known(3).value == 9);
 }
 
 TEST_CASE("A bar that is longer than the elbow lets through is not said to pass, nor to be stuck", "[rigid]") {
@@ -191,6 +243,11 @@ TEST_CASE("The first trial that succeeds is the same on any number of threads", 
     };
     CHECK(first_true(99, monitor, trial(21)) == 20);
     CHECK_THROWS_AS(first_true(99, monitor, trial(19)), InputError);
+    // Those behind it are stopped.
+    CHECK(first_true(2, monitor, [](std::size_t i, const Monitor& own) {
+            for (std::size_t k = 0; i == 1 && k < 10000000000; ++k) own.check_interruption();
+            return true;
+          }) == 0);
   }
 }
 
@@ -245,6 +302,30 @@ TEST_CASE("The symmetries of a robot are found, and slices are shared", "[rigid]
   for (const Rational3& p : slice.components[0].points) CHECK(slice.component_at(p) == std::size_t{0});
 }
 
+TEST_CASE("Slices of bodies that are cut up once are the free positions of the turned robot", "[rigid]") {
+  const std::string l = "box(-1,-1/4,-1/4, 1,1/4,1/4) + box(-1,-1/4,-1/4, -1/2,1/4,1)";
+  const std::string boxes = R"J("box(1,1,1, 3,2,4)", "box(2,1,0, 4,5,3) - box(3,2,1, 5,4,2)", "box(0,4,0, 3,4,5)")J";
+  const std::string in_box = R"J(, "box": [[0,0,0],[5,5,5]])J";
+  const std::string robot = R"J({"robot": ")J";
+  const std::string obstacles = R"J(", "obstacles": [)J";
+  for (const std::string& text :
+       {robot + l + obstacles + boxes + "]}", robot + l + obstacles + boxes + "]" + in_box + "}",
+        robot + l + obstacles + boxes + R"J(, "halfspace(1,1,1,-2)"])J" + in_box + "}",
+        robot + l + " + box(1,-1,0, 2,1,0)" + obstacles + boxes + "]" + in_box + "}"}) {
+    INFO(text);
+    Scene scene = scene_of(text);
+    for (const ContactRule contact : {ContactRule::kAllow, ContactRule::kForbid}) {
+      scene.contact = contact;
+      Slices slices(scene);
+      for (const Quaternion& q : {Quaternion{1, 0, 0, 0}, {1, 1, 0, 0}, {1, ratio(1, 2), ratio(-1, 4), 1}}) {
+        Scene turned = scene;
+        turned.robot = transform(scene.robot, map_of({Rational3{}, q}));
+        CHECK(equal(slices.at(q, {}).free->set(), free_positions(turned)));
+      }
+    }
+  }
+}
+
 TEST_CASE("Paths become shorter, with the same ends", "[rigid]") {
   const Scene scene = load("rigid/l_window");
   const MotionChecker checker = MotionChecker::of_scene(scene);
@@ -253,6 +334,20 @@ TEST_CASE("Paths become shorter, with the same ends", "[rigid]") {
   REQUIRE(certify(checker, detour).status == MotionVerdict::Status::kFree);
   const std::vector<RigidPose> path = shorten(checker, detour);
   CHECK(path.size() == 2);
+  // Round a box, on any number of threads.
+  const MotionChecker among = MotionChecker::of_scene(
+      scene_of(R"J({"robot": "box(-1,-1/4,-1/4, 1,1/4,1/4)", "obstacles": ["box(2,-3,-3, 3,3,3)"],
+      "start": [0,0,0], "goal": [5,0,0]})J"));
+  const std::vector<RigidPose> round{{{0, 0, 0}}, {{0, 6, 0}}, {{5, 6, 0}, {1, 0, 1, 0}}, {{5, 0, 0}}};
+  REQUIRE(certify(among, round).status == MotionVerdict::Status::kFree);
+  const std::vector<RigidPose> shorter = shorten(among, round);
+  CHECK(shorter.size() > 2);
+  CHECK(shorter[1].position != round[1].position);
+  for (const unsigned threads : {2U, 5U}) {
+    const std::vector<RigidPose> on_threads = shorten(among, round, Monitor().on_threads(threads));
+    REQUIRE(on_threads.size() == shorter.size());
+    for (std::size_t i = 0; i < shorter.size(); ++i) CHECK(on_threads[i].position == shorter[i].position);
+  }
   CHECK(path.front().position == detour.front().position);
   CHECK(path.back().position == detour.back().position);
 }

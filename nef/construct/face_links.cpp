@@ -37,7 +37,7 @@ class FaceLinks {
   // Facets of consecutive faces.
   struct Facets {
     std::vector<Facet> facets;
-    std::vector<std::uint32_t> ends;  // of their cycles
+    std::vector<std::uint32_t> ends{0};  // of their cycles, behind 0
     std::vector<SHalfedgeId> corners;
   };
 
@@ -57,7 +57,7 @@ class FaceLinks {
   void pair_edges();
   void list_facets();
   void list_facet(std::uint32_t face, Facets& out) const;
-  void join(const Facets& block);
+  void join(Facets&& block);
   void sort_facets();
   void list_loose_corners();
 
@@ -121,17 +121,19 @@ void FaceLinks::pair_edges() {
   }
 }
 
+// One thread lists all in one block, which is taken as it is.
 void FaceLinks::list_facets() {
-  const SolidFaces& faces = plain_.faces;
-  known_.facets.reserve(faces.plane.size());
-  known_.cycle_begin.reserve(faces.plane.size() + 1);
-  known_.corners.reserve(faces.corners.size());
-  std::vector<Facets> blocks((faces.plane.size() + kBlock - 1) / kBlock);
-  parallel_for_ranges(faces.plane.size(), kBlock, monitor_, [&](std::size_t first, std::size_t last, const Monitor&) {
-    for (auto f = static_cast<std::uint32_t>(first); f < last; ++f) list_facet(f, blocks[first / kBlock]);
-    if (monitor_.threads() == 1) join(std::exchange(blocks[first / kBlock], {}));
+  const std::size_t count = plain_.faces.plane.size();
+  const std::size_t size = monitor_.threads() == 1 ? std::max<std::size_t>(count, 1) : kBlock;
+  std::vector<Facets> blocks((count + size - 1) / size);
+  parallel_for_ranges(count, size, monitor_, [&](std::size_t first, std::size_t last, const Monitor&) {
+    Facets& block = blocks[first / size];
+    block.facets.reserve(last - first);
+    block.ends.reserve(last - first + 1);
+    block.corners.reserve(plain_.faces.begin[last] - plain_.faces.begin[first]);
+    for (auto f = static_cast<std::uint32_t>(first); f < last; ++f) list_facet(f, block);
   });
-  for (const Facets& block : blocks) join(block);
+  for (Facets& block : blocks) join(std::move(block));
 }
 
 void FaceLinks::list_facet(std::uint32_t face, Facets& out) const {
@@ -145,17 +147,28 @@ void FaceLinks::list_facet(std::uint32_t face, Facets& out) const {
   std::rotate(cycle, std::min_element(cycle, out.corners.end()), out.corners.end());
   Facet& facet = out.facets.emplace_back();
   facet.plane = made_.shalfedge_plane[*cycle];
+  facet.first_cycle = CycleId{out.facets.size() - 1};
   facet.cycle_count = 1;
   out.ends.push_back(static_cast<std::uint32_t>(out.corners.size()));
 }
 
-void FaceLinks::join(const Facets& block) {
-  const auto before = static_cast<std::uint32_t>(known_.corners.size());
-  for (std::size_t i = 0; i < block.facets.size(); ++i) {
-    known_.facets.push_back(block.facets[i]);
-    known_.facets.back().first_cycle = CycleId{known_.cycle_begin.size() - 1};
-    known_.cycle_begin.push_back(before + block.ends[i]);
+void FaceLinks::join(Facets&& block) {
+  if (known_.facets.empty()) {
+    known_.facets = std::move(block.facets);
+    known_.cycle_begin = IndexedVector<CycleId, std::uint32_t>(std::move(block.ends));
+    known_.corners = std::move(block.corners);
+    known_.facets.reserve(plain_.faces.plane.size());
+    known_.cycle_begin.reserve(plain_.faces.plane.size() + 1);
+    known_.corners.reserve(plain_.faces.corners.size());
+    return;
   }
+  const auto cycles = static_cast<std::uint32_t>(known_.facets.size());
+  const auto corners = static_cast<std::uint32_t>(known_.corners.size());
+  for (Facet& facet : block.facets) {
+    facet.first_cycle = CycleId{facet.first_cycle.index() + cycles};
+    known_.facets.push_back(facet);
+  }
+  for (const std::uint32_t end : std::span(block.ends).subspan(1)) known_.cycle_begin.push_back(corners + end);
   known_.corners.insert(known_.corners.end(), block.corners.begin(), block.corners.end());
 }
 

@@ -11,6 +11,7 @@
 #include "apps/minkowski/decomposition/decomposition.h"
 #include "apps/minkowski/decomposition/wall_axis.h"
 #include "apps/minkowski/part_of_sum.h"
+#include "apps/minkowski/sum/fixed_obstacles.h"
 #include "apps/minkowski/sum/pair_sums.h"
 #include "apps/minkowski/sum/strategy_choice.h"
 #include "nef/base/error.h"
@@ -61,10 +62,7 @@ struct WithoutCells {
   StrategyChoice others;
 };
 
-// Measured: cells of small obstacles, all in one union, are faster than as many sums. Sets of few vertices have few
-// cells.
-constexpr std::size_t kFewPairs = 100;
-
+// Sets of few vertices have few cells.
 WithoutCells sums_without_cells(const Polyhedron& robot, std::span<const Polyhedron> obstacles,
                                 const MinkowskiOptions& options, MinkowskiReport& report) {
   WithoutCells result;
@@ -82,9 +80,9 @@ WithoutCells sums_without_cells(const Polyhedron& robot, std::span<const Polyhed
     const Polyhedron closed = closure(obstacles[i], monitor);
     if (!is_full_dimensional(closed)) continue;
     const std::size_t vertices = closed.complex().vertex_count() * robot_inside.complex().vertex_count();
-    if (!insist && vertices < 4 * kFewPairs) continue;
+    if (!insist && vertices < 4 * kFewPairsOfPieces) continue;
     const std::size_t cells = insist ? 0 : estimated_cells(closed.complex(), monitor);
-    if (!insist && (cells < 2 || cells * robot_cells < kFewPairs)) continue;
+    if (!insist && (cells < 2 || cells * robot_cells < kFewPairsOfPieces)) continue;
     StrategyChoice choice;
     const PartOfSum part(monitor, static_cast<double>(i) / parts, static_cast<double>(i + 1) / parts);
     Summand of_obstacle(closed);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,6 +14,10 @@
 #include "nef/polyhedron.h"
 
 namespace nef::minkowski {
+
+/// The sums of up to so many pairs of convex pieces, all in one union, take less time than sums by convolution
+/// (measured).
+inline constexpr std::size_t kFewPairsOfPieces = 100;
 
 /// Obstacles that are cut up once, for the free positions of many robots among them. Each obstacle is its solid part,
 /// the closure of its interior, and what is left of it: an open robot meets it iff it meets one of the two.

@@ -37,7 +37,7 @@ class SliceSearch::State {
  public:
   State(const Scene& scene, const RigidQuestion& question, const MotionChecker& checker, const Monitor& monitor)
       : fit_(checker),
-        slices_(scene, monitor),
+        slices_(scene, monitor, is_light(checker)),
         metric_(checker.robot().nodes().front().reach),
         goal_(question.goal),
         is_light_(is_light(checker)),

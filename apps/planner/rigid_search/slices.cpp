@@ -71,18 +71,17 @@ std::optional<std::size_t> Slice::component_at(const Rational3& position) const 
   return std::nullopt;
 }
 
-Slices::Slices(const Scene& scene, const Monitor& monitor) : scene_(scene) {
+Slices::Slices(const Scene& scene, const Monitor& monitor, bool are_light) : scene_(scene) {
   scene_.rotation.reset();
   scene_.turns_freely = false;
   scene_.start.reset();
   scene_.goal.reset();
-  if (scene_.robot.is_regular()) {
+  if (are_light && scene_.robot.is_regular()) {
     obstacles_ = fixed_obstacles(scene_, monitor);
     for (minkowski::ConvexCell& cell : minkowski::decompose(scene_.robot, monitor)) {
       if (cell.dimension == 3) pieces_.push_back(std::move(cell.mesh));
     }
-    constexpr std::size_t kFewPairs = 100;  // as minkowski::configuration_space has it
-    if (obstacles_->solid_count() * pieces_.size() > kFewPairs) obstacles_.reset();
+    if (obstacles_->solid_count() * pieces_.size() > minkowski::kFewPairsOfPieces) obstacles_.reset();
   }
   const auto box = bounding_box(scene_.robot);
   const std::vector<Quaternion> rotations = rotations_of_cube();

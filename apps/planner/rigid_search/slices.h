@@ -52,7 +52,8 @@ struct Slice {
 /// Several threads may ask at once; if they ask for the same slice, one makes it, and the others wait.
 class Slices {
  public:
-  explicit Slices(const Scene& scene, const Monitor& monitor = {});
+  /// `are_light`: cutting up the bodies takes no time beside a slice (see is_light). Slices are the same without.
+  explicit Slices(const Scene& scene, const Monitor& monitor = {}, bool are_light = true);
 
   /// The slice of a canonical quaternion (rotations.h). A Minkowski sum of all obstacles with the robot, and a roadmap.
   /// `meanwhile`: as that of MadeOnce::at.

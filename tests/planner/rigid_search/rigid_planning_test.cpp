@@ -74,6 +74,14 @@ void check_by_fcl([[maybe_unused]] const MotionChecker& checker, [[maybe_unused]
 #endif
 }
 
+void check_same_path(const RigidAnswer& answer, const RigidAnswer& expected) {
+  REQUIRE(answer.path.size() == expected.path.size());
+  for (std::size_t i = 0; i < expected.path.size(); ++i) {
+    CHECK(answer.path[i].position == expected.path[i].position);
+    CHECK(answer.path[i].quaternion == expected.path[i].quaternion);
+  }
+}
+
 // The ends are those of the question, the parts are certified, and no pose of some collides.
 void check_path(const Scene& scene, const RigidAnswer& answer, std::size_t poses) {
   REQUIRE(answer.status == Status::kPath);
@@ -117,11 +125,7 @@ TEST_CASE("A bar turns round an elbow in x, y and z with .2 % of slack", "[rigid
     CHECK(again.samples == answer.samples);
     CHECK(again.slices == answer.slices);
     CHECK(again.boxes == answer.boxes);
-    REQUIRE(again.path.size() == answer.path.size());
-    for (std::size_t i = 0; i < answer.path.size(); ++i) {
-      CHECK(again.path[i].position == answer.path[i].position);
-      CHECK(again.path[i].quaternion == answer.path[i].quaternion);
-    }
+    check_same_path(again, answer);
   }
 }
 
@@ -186,11 +190,7 @@ TEST_CASE("Two turns lead an L through a window", "[rigid]") {
   check_path(scene, answer, 40);
   const RigidAnswer on_threads = answer_of(scene, {}, Monitor().on_threads(3));
   CHECK(on_threads.slices == answer.slices);
-  REQUIRE(on_threads.path.size() == answer.path.size());
-  for (std::size_t i = 0; i < answer.path.size(); ++i) {
-    CHECK(on_threads.path[i].position == answer.path[i].position);
-    CHECK(on_threads.path[i].quaternion == answer.path[i].quaternion);
-  }
+  check_same_path(on_threads, answer);
 }
 
 TEST_CASE("A bent tube passes two holes at once", "[rigid]") {
@@ -215,8 +215,7 @@ TEST_CASE("Where there is room no slices are needed", "[rigid]") {
   const RigidAnswer on_threads =
       answer_of(scene, {.max_slices = 0, .max_samples = 2000}, Monitor().on_threads(3));  // by samples
   CHECK(on_threads.samples == answer.samples);
-  REQUIRE(on_threads.path.size() == answer.path.size());
-  for (std::size_t i = 0; i < answer.path.size(); ++i) CHECK(on_threads.path[i].position == answer.path[i].position);
+  check_same_path(on_threads, answer);
   // Straight to a goal nearby; no search at all.
   Scene near = scene;
   near.goal = near.start;
@@ -317,10 +316,12 @@ TEST_CASE("Slices of bodies that are cut up once are the free positions of the t
     for (const ContactRule contact : {ContactRule::kAllow, ContactRule::kForbid}) {
       scene.contact = contact;
       Slices slices(scene);
+      Slices uncut(scene, {}, false);
       for (const Quaternion& q : {Quaternion{1, 0, 0, 0}, {1, 1, 0, 0}, {1, ratio(1, 2), ratio(-1, 4), 1}}) {
         Scene turned = scene;
         turned.robot = transform(scene.robot, map_of({Rational3{}, q}));
         CHECK(equal(slices.at(q, {}).free->set(), free_positions(turned)));
+        CHECK(equal(uncut.at(q, {}).free->set(), free_positions(turned)));
       }
     }
   }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "nef/number/square_root.h"
+
 namespace nef::planner {
 namespace {
 
@@ -63,14 +65,12 @@ std::vector<QuadraticRoot> roots_in_unit_interval(const std::array<Rational, 3>&
   const Rational middle = -c[1] / (2 * c[2]);
   const Rational square = middle * middle - c[0] / c[2];
   if (square < 0) return roots;
-  const bool whole =
-      mpz_perfect_square_p(square.get_num_mpz_t()) != 0 && mpz_perfect_square_p(square.get_den_mpz_t()) != 0;
+  const std::optional<Rational> whole = rational_square_root(square);
   for (const int sign : {-1, 1}) {
     if (square == 0) {
       if (sign > 0) take(middle);
     } else if (whole) {
-      const Rational root(sqrt(square.get_num()), sqrt(square.get_den()));
-      take(Rational(middle + sign * root));
+      take(Rational(middle + sign * *whole));
     } else {
       QuadraticRoot root(middle);
       root.square = square;

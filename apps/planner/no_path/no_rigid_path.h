@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "apps/planner/orientation/rotation_claim.h"
 #include "apps/planner/proofs/path_proof.h"
+#include "apps/planner/proofs/rotation_claim.h"
 #include "apps/planner/rigid/motion_checker.h"
 #include "nef/base/monitor.h"
 

@@ -8,9 +8,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "apps/planner/orientation/rotations.h"
 #include "apps/planner/rigid_ompl/rigid_validity.h"
 #include "apps/planner/rigid_search/rigid_planning.h"
-#include "apps/planner/rigid_search/rotations.h"
 #include "nef/base/interruption.h"
 
 namespace nef::planner {

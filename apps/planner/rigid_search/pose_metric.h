@@ -8,8 +8,8 @@
 #include <cstdint>
 
 #include "apps/planner/intersection/vectors.h"
+#include "apps/planner/orientation/rotations.h"
 #include "apps/planner/rigid/rigid_motion.h"
-#include "apps/planner/rigid_search/rotations.h"
 
 namespace nef::planner {
 

@@ -14,6 +14,8 @@
 #include <functional>
 #include <mutex>
 
+#include "apps/planner/orientation/aligned_rotations.h"
+#include "apps/planner/orientation/rotations.h"
 #include "apps/planner/path/path.h"
 #include "apps/planner/rigid_search/slice_tree.h"
 #include "nef/base/error.h"
@@ -31,6 +33,17 @@ struct Fineness {
 constexpr std::array<Fineness, 10> kRounds{Fineness{0, 0}, {0, 1}, {0, 2}, {0, 3}, {0, 4},
                                            {1, 1},         {1, 2}, {1, 3}, {2, 2}, {2, 3}};
 
+// The rotations at which faces of both are parallel, beside those of the first grid; none if there are too many faces.
+std::set<Quaternion> aligned_beside_grid(const Scene& scene, const Monitor& monitor) {
+  constexpr std::size_t kMostPairs = 400;  // of directions
+  const std::set<Integer3> of_robot = face_directions({&scene.robot, 1});
+  const std::set<Integer3> of_obstacles = face_directions(scene.obstacles);
+  if (of_robot.size() * of_obstacles.size() > kMostPairs) return {};
+  std::set<Quaternion> result = aligned_rotations(of_robot, of_obstacles, monitor);
+  std::erase_if(result, [](const Quaternion& q) { return is_in_grid(q, kRounds.front().level); });
+  return result;
+}
+
 }  // namespace
 
 class SliceSearch::State {
@@ -41,8 +54,9 @@ class SliceSearch::State {
         metric_(checker.robot().nodes().front().reach),
         goal_(question.goal),
         is_light_(is_light(checker)),
-        trees_{SliceTree(checker, fit_, metric_, slices_, question.start, question.goal),
-               SliceTree(checker, fit_, metric_, slices_, question.goal, question.start)} {}
+        aligned_(aligned_beside_grid(scene, monitor)),
+        trees_{SliceTree(checker, fit_, metric_, slices_, aligned_, question.start, question.goal),
+               SliceTree(checker, fit_, metric_, slices_, aligned_, question.goal, question.start)} {}
 
   std::optional<std::vector<RigidPose>> run(std::size_t max_slices, const Monitor& monitor) {
     const bool at_once = is_light_ && monitor.threads() != 1;
@@ -279,6 +293,7 @@ class SliceSearch::State {
   PoseMetric metric_;
   RigidPose goal_;
   bool is_light_;                   // else slices take long, so trees grow in turn, each on all threads
+  std::set<Quaternion> aligned_;    // rotations
   std::array<SliceTree, 2> trees_;  // from the start, and from the goal
   std::set<Quaternion> made_;       // the slices that both have asked for, as Slices::shared names them
   std::size_t round_ = 0;

@@ -16,12 +16,13 @@
 
 namespace nef::planner {
 
-/// Nodes are components of exact free spaces at rotations of a grid (slices.h). Two nodes of neighbouring rotations are
-/// joined by a certified motion between points of both, which turns and moves at once and whose positions are fitted
-/// between the obstacles (motion_fit.h). Where there is none, the slice halfway is made, so the arc is halved. Inside a
-/// node all points are connected, by exact translational paths. Grids and arcs get finer round by round. One tree of
-/// nodes grows from each end (slice_tree.h), both at once if the monitor has threads; the result does not depend on
-/// that.
+/// Nodes are components of exact free spaces at rotations of a grid (slices.h), and at those at which faces of the
+/// robot are parallel to faces of the obstacles (orientation/aligned_rotations.h), where it fits exactly if it ever
+/// does. Two nodes of neighbouring rotations are joined by a certified motion between points of both, which turns and
+/// moves at once and whose positions are fitted between the obstacles (motion_fit.h). Where there is none, the slice
+/// halfway is made, so the arc is halved. Inside a node all points are connected, by exact translational paths. Grids
+/// and arcs get finer round by round. One tree of nodes grows from each end (slice_tree.h), both at once if the monitor
+/// has threads; the result does not depend on that.
 class SliceSearch {
  public:
   /// The checker, which must outlive it, is that of the scene. Its start and goal are those of the question, and free.

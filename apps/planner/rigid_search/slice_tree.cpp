@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "apps/planner/orientation/rotations.h"
 #include "apps/planner/rigid/certified_path.h"
 #include "apps/planner/rigid_search/first_true.h"
-#include "apps/planner/rigid_search/rotations.h"
 
 namespace nef::planner {
 namespace {
@@ -21,11 +21,12 @@ Rational3 exact(const Vector3d& p) { return {exact_rational(p[0]), exact_rationa
 }  // namespace
 
 SliceTree::SliceTree(const MotionChecker& checker, const MotionFit& fit, const PoseMetric& metric, Slices& slices,
-                     const RigidPose& root, const RigidPose& other)
+                     const std::set<Quaternion>& aligned, const RigidPose& root, const RigidPose& other)
     : checker_(checker),
       fit_(fit),
       metric_(metric),
       slices_(slices),
+      aligned_(aligned),
       root_(root),
       goal_(other),
       reach_(metric.reach()) {
@@ -47,14 +48,17 @@ void SliceTree::add_steps(unsigned level) {
   for (NodeIndex node = 0; node < nodes_.size(); ++node) add_steps(node, level);
 }
 
-// Rotations between those of the grid only lead from one to another.
+// Rotations that halve arcs only lead from one end to the other.
 void SliceTree::add_steps(NodeIndex node, unsigned level) {
-  if (node > 0 && !is_in_grid(nodes_[node].rotation, level)) return;
-  for (const Quaternion& next : grid_neighbours(nodes_[node].rotation, level)) add_step(node, next);
+  const Quaternion& rotation = nodes_[node].rotation;
+  if (node > 0 && !is_in_grid(rotation, level) && aligned_.count(rotation) == 0) return;
+  for (const Quaternion& next : grid_neighbours(rotation, level)) add_step(node, next);
   constexpr double kWidestCell = 2.0;  // radians, of a cell of the grid of level 0
-  if (angle_between(nodes_[node].rotation, goal_.quaternion) < kWidestCell / (1U << level)) {
-    add_step(node, goal_.quaternion);
+  const auto is_near = [&](const Quaternion& to) { return angle_between(rotation, to) < kWidestCell / (1U << level); };
+  for (const Quaternion& aligned : aligned_) {
+    if (is_near(aligned) && aligned != rotation) add_step(node, aligned);
   }
+  if (is_near(goal_.quaternion)) add_step(node, goal_.quaternion);
 }
 
 void SliceTree::add_step(NodeIndex index, const Quaternion& rotation) {

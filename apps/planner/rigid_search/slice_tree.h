@@ -61,9 +61,10 @@ class SliceTree {
     std::set<Quaternion> slices;     ///< that were asked for, as Slices::shared names them
   };
 
-  /// All of these must outlive it. `root` is the free pose where it begins, `other` where the other tree does.
+  /// All of these must outlive it. `aligned`: rotations that steps lead to besides those of the grid. `root` is the
+  /// free pose where it begins, `other` where the other tree does.
   SliceTree(const MotionChecker& checker, const MotionFit& fit, const PoseMetric& metric, Slices& slices,
-            const RigidPose& root, const RigidPose& other);
+            const std::set<Quaternion>& aligned, const RigidPose& root, const RigidPose& other);
 
   /// Makes the slice that `plant` asks for.
   void prepare(const Monitor& monitor) { (void)slices_.at(root_.quaternion, monitor); }
@@ -71,7 +72,7 @@ class SliceTree {
   bool plant(const Monitor& monitor);
   [[nodiscard]] bool is_planted() const { return !nodes_.empty(); }
 
-  /// All steps from its nodes on the grid of rotations of a level (rotations.h).
+  /// All steps from its nodes to the grid of rotations of a level (rotations.h), and to aligned rotations nearby.
   void add_steps(unsigned level);
   [[nodiscard]] bool has_steps() const { return !steps_.empty(); }
 
@@ -157,6 +158,7 @@ class SliceTree {
   const MotionFit& fit_;
   const PoseMetric& metric_;
   Slices& slices_;
+  const std::set<Quaternion>& aligned_;
   RigidPose root_;
   RigidPose goal_;
   double reach_;

@@ -9,7 +9,7 @@
 
 #include "apps/minkowski/minkowski.h"
 #include "apps/planner/free_space/free_positions.h"
-#include "apps/planner/rigid_search/rotations.h"
+#include "apps/planner/orientation/rotations.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/construct/construct.h"
 

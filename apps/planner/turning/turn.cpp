@@ -9,20 +9,16 @@
 #include "nef/geometry/vectors.h"
 #include "nef/number/floor.h"
 #include "nef/number/simplest_between.h"
+#include "nef/number/square_root.h"
 
 namespace nef::planner {
 namespace {
-
-std::optional<Rational> square_root(const Rational& x) {
-  if (mpz_perfect_square_p(x.get_num_mpz_t()) == 0 || mpz_perfect_square_p(x.get_den_mpz_t()) == 0) return {};
-  return Rational(Integer(sqrt(x.get_num())), Integer(sqrt(x.get_den())));
-}
 
 // What makes a vector about one long: exactly, if it can.
 Rational scale_of(const Rational3& direction) {
   const Rational square = dot(direction, direction);
   if (square == 0) throw InputError("the axis of rotation must not be the zero vector");
-  if (const std::optional<Rational> length = square_root(square)) return 1 / *length;
+  if (const std::optional<Rational> length = rational_square_root(square)) return 1 / *length;
   const Rational scale = exact_rational(1 / std::sqrt(nearest_double(square)));
   return simplest_between(scale * Rational(19, 20), scale * Rational(21, 20));
 }
@@ -71,7 +67,7 @@ std::optional<Turn> TurningAxis::turn_between(const Rational3& from, const Ratio
   const Rational3 a = across(from);
   const Rational3 b = across(to);
   if (is_zero(a) || is_zero(b)) return std::nullopt;
-  const std::optional<Rational> lengths = square_root(dot(a, a) * dot(b, b));
+  const std::optional<Rational> lengths = rational_square_root(dot(a, a) * dot(b, b));
   if (!lengths) return std::nullopt;
   // tan(x / 2) = sin x / (1 + cos x)
   Half half{*lengths + dot(a, b), dot(n_, cross(a, b)) / square_};

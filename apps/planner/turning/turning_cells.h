@@ -108,7 +108,6 @@ std::vector<Rational3> points_of_components(const FreeSpace& free, const Monitor
 
 /// The turns in the question's range at which a face of the robot looks against a face of an obstacle or with it, as
 /// far as they are rational. O(n m) for n directions of the robot's faces and m of the obstacles'.
-std::set<Turn> turns_of_parallel_faces(const Scene& scene, const TurningRobot& robot, const TurningQuestion& question,
-                                       const Monitor& monitor);
+std::set<Turn> turns_of_parallel_faces(const Scene& scene, const TurningQuestion& question, const Monitor& monitor);
 
 }  // namespace nef::planner

@@ -52,7 +52,7 @@ class TurningSearch {
         limits_(limits),
         monitor_(monitor),
         cells_(scene, question, monitor),
-        parallel_(turns_of_parallel_faces(scene, cells_.robot(), question, monitor)) {}
+        parallel_(turns_of_parallel_faces(scene, question, monitor)) {}
 
   TurningAnswer run() {
     try {

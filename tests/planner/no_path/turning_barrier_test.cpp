@@ -8,8 +8,8 @@
 #include <catch2/catch.hpp>
 #include <string>
 
-#include "apps/planner/orientation/rotation_claim.h"
 #include "apps/planner/proofs/proof_file.h"
+#include "apps/planner/proofs/rotation_claim.h"
 #include "apps/planner/turning/turning_search.h"
 #include "tests/planner/scene_helpers.h"
 

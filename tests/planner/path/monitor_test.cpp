@@ -131,9 +131,8 @@ TEST_CASE("a monitor stops the search for turns at which faces are parallel") {
   const std::atomic<bool> stop{true};
   const Scene scene = scene_of(corner("3"));
   const TurningQuestion question = question_of(scene);
-  const TurningRobot robot(scene.robot, question.axis);
-  CHECK_FALSE(turns_of_parallel_faces(scene, robot, question, {}).empty());
-  CHECK_THROWS_AS(turns_of_parallel_faces(scene, robot, question, Monitor().stopped_by(&stop)), Interrupted);
+  CHECK_FALSE(turns_of_parallel_faces(scene, question, {}).empty());
+  CHECK_THROWS_AS(turns_of_parallel_faces(scene, question, Monitor().stopped_by(&stop)), Interrupted);
 }
 
 TEST_CASE("an assembly is undecided as far as a monitor stops the search") {

@@ -16,12 +16,12 @@
 
 #include "apps/planner/free_space/collision.h"
 #include "apps/planner/free_space/free_positions.h"
+#include "apps/planner/orientation/rotations.h"
 #include "apps/planner/proofs/proof_file.h"
 #include "apps/planner/rigid_search/certified_trees.h"
 #include "apps/planner/rigid_search/first_true.h"
 #include "apps/planner/rigid_search/made_once.h"
 #include "apps/planner/rigid_search/pose_metric.h"
-#include "apps/planner/rigid_search/rotations.h"
 #include "apps/planner/rigid_search/shorten_poses.h"
 #include "apps/planner/rigid_search/slice_search.h"
 #include "apps/planner/rigid_search/slices.h"
@@ -202,6 +202,25 @@ TEST_CASE("A bent tube passes two holes at once", "[rigid]") {
   const RigidAnswer answer = answer_of(scene);
   check_path(scene, answer, 40);
   CHECK(answer.slices > 0);
+}
+
+TEST_CASE("A slot exactly as wide as the robot is found, however the wall is turned", "[rigid]") {
+  Scene scene = scene_of(R"J({"robot": "box(-2,-1/2,-3/2, 2,1/2,3/2)",
+      "obstacles": ["box(0,-30,-30, 4,30,30) - box(-1,-1/2,-3/2, 5,1/2,3/2)"],
+      "rotation": "SO(3)", "box": [[-10, -10, -10], [10, 10, 10]],
+      "start": {"position": [-5, 0, 0], "quaternion": [1, 0, 0, 0]},
+      "goal": {"position": [9, 0, 0], "quaternion": [1, 0, 0, 0]}})J");
+  const Polyhedron wall = scene.obstacles[0];
+  const std::array<Rational3, 2> ends{*scene.start, *scene.goal};
+  for (const Quaternion& turn : {Quaternion{7, 0, 0, 1}, Quaternion{5, 2, -1, 3}, Quaternion{9, 4, 8, -2}}) {
+    const AffineMap map = map_of({Rational3{}, turn});
+    scene.obstacles = {transform(wall, map)};
+    scene.start = map(ends[0]);
+    scene.goal = map(ends[1]);
+    const RigidAnswer answer = answer_of(scene);
+    check_path(scene, answer, 40);
+    CHECK(answer.slices < 60);
+  }
 }
 
 TEST_CASE("Where there is room no slices are needed", "[rigid]") {

@@ -13,10 +13,10 @@
 #include <map>
 #include <utility>
 
-#include "apps/planner/orientation/rotation_claim.h"
 #include "apps/planner/proofs/check/arc_time.h"
 #include "apps/planner/proofs/check/check_parts.h"
 #include "apps/planner/proofs/path_proof.h"
+#include "apps/planner/proofs/rotation_claim.h"
 #include "apps/planner/scene/scene.h"
 #include "nef/base/error.h"
 #include "nef/construct/construct.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/planner/orientation/rotation_claim.h"
+#include "apps/planner/proofs/rotation_claim.h"
 
 #include <iterator>
 #include <set>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Grids of rotations, and the random numbers and metric of searches (pose_metric.h).
-#include "apps/planner/rigid_search/rotations.h"
+#include "apps/planner/orientation/rotations.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

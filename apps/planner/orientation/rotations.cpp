@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "apps/planner/rigid_search/rotations.h"
+#include "apps/planner/orientation/rotations.h"
 
 #include <algorithm>
 #include <cmath>

@@ -256,9 +256,23 @@ class Mender {
       if (!remove_thin(t)) shake(t, round);
     }
     for (const std::uint32_t t : found.guilty) {
-      if (is_thin(t, round) && remove_thin(t)) continue;
+      if (remove_if_thin(t, round) || remove_thin_neighbour(t, round)) continue;
       shake(t, round);
     }
+  }
+
+  bool remove_if_thin(std::uint32_t t, int round) { return is_thin(t, round) && remove_thin(t); }
+
+  // A cap whose corner was rounded over its long side crosses nothing itself: the faces on both sides of it do. True
+  // also if one of its neighbours has been changed, which may be enough.
+  bool remove_thin_neighbour(std::uint32_t t, int round) {
+    bool any = false;
+    for_each_side(VertexTriple(triangles_[t]), [&](std::uint32_t u, std::uint32_t v) {
+      const auto others = neighbours_.find(pair_key(v, u));
+      if (others == neighbours_.end()) return;
+      for (const std::uint32_t other : others->second) any = touched_[other] || remove_if_thin(other, round) || any;
+    });
+    return any;
   }
 
   [[nodiscard]] double squared_distance(std::uint32_t a, std::uint32_t b) const {

@@ -152,6 +152,41 @@ TEST_CASE("A solid thinner than doubles can tell is not written in silence", "[r
   CHECK_FALSE(write_polyhedron(folder.file("a.off"), thin, {.lenient = true}).problem.empty());
 }
 
+// A tetrahedron whose faces meet in a very sharp edge, and a vertex of one of them so close to the edge that it is
+// rounded beyond it nearly always: then both faces cross, and moving corners hardly ever puts it back between them.
+TEST_CASE("A vertex that is rounded over a sharp edge is joined to the face beyond it", "[rounding]") {
+  std::mt19937 random(20261130);
+  const auto near = [&](int x) -> Rational { return Rational(x) + Rational(static_cast<int>(random() % 997), 997); };
+  int repaired = 0;
+  for (int i = 0; i < 60; ++i) {
+    INFO(i);
+    const Rational3 a{near(0), near(0), near(0)};
+    const Rational3 b{near(6), near(2), near(1)};
+    const Rational3 c{near(2), near(4), near(3)};
+    const Rational3 d{c[0], c[1] + Rational(1, 100000), c[2] - Rational(1, 30000)};
+    const Rational beside = 1 / Rational(Integer("1000000000000000000"));
+    Rational3 m;
+    for (std::size_t k = 0; k < 3; ++k) m[k] = a[k] + (b[k] - a[k]) * 2 / 5 + beside * (d[k] - a[k]);
+    Mesh mesh;
+    mesh.vertices = {a, b, c, d, m};
+    const bool is_turned = dot(cross(minus(b, a), minus(c, a)), minus(d, a)) > 0;  // a, b, c is seen from inside
+    for (std::array<std::uint32_t, 3> face :
+         std::vector<std::array<std::uint32_t, 3>>{{0, 1, 2}, {1, 0, 4}, {0, 3, 4}, {3, 1, 4}, {0, 2, 3}, {2, 1, 3}}) {
+      if (is_turned) std::swap(face[0], face[1]);
+      mesh.push_face(face);
+    }
+    REQUIRE(why_illegal(mesh).empty());
+    const Rounding rounding = rounding_to(FileNumbers::kDoubles);
+    if (!rounded_problem(mesh, rounding).empty()) ++repaired;
+    const MendedMesh mended = round_mesh(mesh, rounding);
+    CHECK(mended.problem.empty());
+    CHECK(mended.legal);
+    CHECK(mended.moved == 0);
+    CHECK(why_illegal(mended.mesh).empty());
+  }
+  CHECK(repaired > 5);
+}
+
 TEST_CASE("Faces that are written are convex, or polygons if asked", "[rounding]") {
   const TemporaryFolder folder;
   const Polyhedron set = subtract(make_box({0, 0, 0}, {3, 3, 1}), make_box({1, 1, 0}, {2, 3, 1}));

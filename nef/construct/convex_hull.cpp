@@ -55,6 +55,13 @@ class Quickhull {
   void cone(std::uint32_t point);
   void hand_out(std::uint32_t point, std::uint32_t first_triangle);
   Approximation orient(const HullTriangle& t, std::uint32_t point) const;
+  // No plane if they are on one line.
+  PlaneId plane_through(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    return finder_.through(planes_, table_, PointId(a), PointId(b), PointId(c));
+  }
+  [[nodiscard]] int side_of(PlaneId plane, std::uint32_t point) const {
+    return side_of_plane(planes_, plane, table_, PointId(point), monitor_);
+  }
   PlaneId plane_of(HullTriangle& t);
   bool above(HullTriangle& t, std::uint32_t point, double& height);
   Hull flat_hull(const std::vector<std::uint32_t>& simplex) const;
@@ -68,6 +75,7 @@ class Quickhull {
   Monitor monitor_;
   PointTable table_;
   PlaneTable planes_;
+  PlaneFinder finder_;
   double largest_ = 0;
   std::vector<HullTriangle> triangles_;
   std::vector<std::uint32_t> todo_;  // triangles that may have points outside
@@ -106,10 +114,7 @@ Approximation Quickhull::orient(const HullTriangle& t, std::uint32_t point) cons
 }
 
 PlaneId Quickhull::plane_of(HullTriangle& t) {
-  if (!t.plane.valid()) {
-    const Rational3& o = points_[t.vertex[0]];
-    t.plane = plane_through(planes_, cross(minus(points_[t.vertex[1]], o), minus(points_[t.vertex[2]], o)), o);
-  }
+  if (!t.plane.valid()) t.plane = plane_through(t.vertex[0], t.vertex[1], t.vertex[2]);
   return t.plane;
 }
 
@@ -117,8 +122,7 @@ PlaneId Quickhull::plane_of(HullTriangle& t) {
 bool Quickhull::above(HullTriangle& t, std::uint32_t point, double& height) {
   const Approximation rough = orient(t, point);
   height = rough.value;
-  return sign_by_ladder(rough, monitor_,
-                        [&] { return side_of_plane(planes_, plane_of(t), table_, PointId(point), monitor_); }) > 0;
+  return sign_by_ladder(rough, monitor_, [&] { return side_of(plane_of(t), point); }) > 0;
 }
 
 std::vector<std::uint32_t> Quickhull::span() {
@@ -150,34 +154,30 @@ std::vector<std::uint32_t> Quickhull::span() {
     return false;
   };
   const Double3 o = approximate(0);
-  const Rational3& origin = points_[0];
   if (!extend([&](const Double3& p) { return dot(minus(p, o), minus(p, o)); },
-              [&](std::uint32_t i) { return points_[i] != origin; })) {
+              [&](std::uint32_t i) { return points_[i] != points_[0]; })) {
     return simplex;
   }
   const Double3 d = minus(approximate(simplex[1]), o);
-  const Rational3 direction = minus(points_[simplex[1]], origin);
   if (!extend(
           [&](const Double3& p) {
             const Double3 n = cross(d, minus(p, o));
             return dot(n, n);
           },
-          [&](std::uint32_t i) { return !is_zero(cross(direction, minus(points_[i], origin))); })) {
+          [&](std::uint32_t i) { return plane_through(0, simplex[1], i).valid(); })) {
     return simplex;
   }
   const Double3 n = cross(d, minus(approximate(simplex[2]), o));
-  const Rational3 normal = cross(direction, minus(points_[simplex[2]], origin));
+  const PlaneId plane = plane_through(0, simplex[1], simplex[2]);
   extend([&](const Double3& p) { return std::fabs(dot(n, minus(p, o))); },
-         [&](std::uint32_t i) { return sgn(dot(normal, minus(points_[i], origin))) != 0; });
+         [&](std::uint32_t i) { return side_of(plane, i) != 0; });
   return simplex;
 }
 
 void Quickhull::start(const std::vector<std::uint32_t>& simplex) {
   std::array<std::uint32_t, 4> v = {simplex[0], simplex[1], simplex[2], simplex[3]};
-  const Rational3& o = points_[v[0]];
-  const Rational3 normal = cross(minus(points_[v[1]], o), minus(points_[v[2]], o));
   // The fourth point is to lie below the first three.
-  if (sgn(dot(normal, minus(points_[v[3]], o))) > 0) std::swap(v[1], v[2]);
+  if (side_of(plane_through(v[0], v[1], v[2]), v[3]) > 0) std::swap(v[1], v[2]);
   constexpr std::array<std::array<std::uint32_t, 3>, 4> kFaces = {{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
   triangles_.resize(4);
   for (std::uint32_t f = 0; f < 4; ++f) {

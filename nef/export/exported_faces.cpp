@@ -58,8 +58,8 @@ class FaceWriter {
 
   void collect_rings(const Facet& facet) {
     const std::span<const SHalfedgeId> corners = complex_.corners_of(facet);
-    rings_.resize(corners.size());
-    for (std::size_t i = 0; i < corners.size(); ++i) rings_[i] = parts_.number(corners[i]);
+    rings_.clear();
+    for (const SHalfedgeId corner : corners) rings_.push_back(parts_.number(corner));
     ring_end_.clear();
     for (const CycleId cycle : facet.cycles()) {
       ring_end_.push_back(complex_.cycle_begin[cycle.next()] - complex_.cycle_begin[facet.first_cycle]);

@@ -22,8 +22,7 @@ constexpr double kModerate = 1e75;
 // Coordinates below 2^40 give differences below 2^41, minors below 2^83 and determinants below 2^126.
 constexpr std::int64_t kIntegerLimit = std::int64_t{1} << 40U;
 
-// x, y, z, w where they are below 2^62.
-using Homogeneous = std::array<std::int64_t, 7>;
+using Homogeneous = MeshPoints::Small;
 
 // b - a along an axis, scaled by the positive product of their denominators. Below 2^125.
 Int128 short_difference(const Homogeneous& a, const Homogeneous& b, std::size_t axis) {
@@ -376,10 +375,8 @@ int MeshPoints::orientation_along_exact(std::uint32_t a, std::uint32_t b, std::u
     return sign_of(static_cast<Int128>(q[i] - p[i]) * (r[j] - p[j]) - static_cast<Int128>(r[i] - p[i]) * (q[j] - p[j]));
   }
   require_numbers();
-  if (Homogeneous p{}, q{}, r{}; kFastPaths && source().small_coordinates(place(a), p) &&
-                                 source().small_coordinates(place(b), q) && source().small_coordinates(place(c), r)) {
-    return compare_products(short_difference(p, q, i), short_difference(p, r, j), short_difference(p, r, i),
-                            short_difference(p, q, j));
+  if (Small p{}, q{}, r{}; read_small(a, p) && read_small(b, q) && read_small(c, r)) {
+    return orientation_along(p, q, r, axis);
   }
   std::array<Integer, 2> u;
   std::array<Integer, 2> v;
@@ -423,7 +420,23 @@ std::size_t MeshPoints::projection_axis(std::uint32_t a, std::uint32_t b, std::u
   return order[0];
 }
 
+int MeshPoints::orientation_along(const Small& a, const Small& b, const Small& c, std::size_t axis) {
+  const std::size_t i = axis == 2 ? 0 : axis + 1;
+  const std::size_t j = i == 2 ? 0 : i + 1;
+  return compare_products(short_difference(a, b, i), short_difference(a, c, j), short_difference(a, c, i),
+                          short_difference(a, b, j));
+}
+
+int MeshPoints::compare(const Small& a, const Small& b, std::size_t axis) {
+  return sign_of(short_difference(b, a, axis));
+}
+
+bool MeshPoints::read_small(std::uint32_t p, Small& out) const {
+  return kFastPaths && !are_integers_ && !only_doubles_ && source().small_coordinates(place(p), out);
+}
+
 int MeshPoints::compare_exact(std::uint32_t a, std::uint32_t b, std::size_t axis) const {
+  if (Small p{}, q{}; read_small(a, p) && read_small(b, q)) return compare(p, q, axis);
   Integer gap;
   difference(b, a, std::span(&gap, 1), axis);
   return sgn(gap);

@@ -97,6 +97,14 @@ class MeshPoints {
   }
   [[nodiscard]] std::int64_t denominator() const { return denominator_; }
 
+  /// Homogeneous coordinates x, y, z, w below 2^62, as PointTable::small_coordinates has them, and questions about
+  /// such: the sign of a[axis] - b[axis], and orientation_along.
+  using Small = std::array<std::int64_t, 7>;
+  static int compare(const Small& a, const Small& b, std::size_t axis);
+  static int orientation_along(const Small& a, const Small& b, const Small& c, std::size_t axis);
+  /// Reads them; false if a point has none, or only doubles are known.
+  [[nodiscard]] bool read_small(std::uint32_t p, Small& out) const;
+
   /// The points as a table with the same numbers, where there are no small integers; empty if there are, and for points
   /// of another table.
   [[nodiscard]] const PointTable& table() const { return table_; }

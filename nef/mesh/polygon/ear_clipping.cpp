@@ -15,8 +15,10 @@ namespace {
 
 template <typename Ring>
 bool cut_ears(Ring& ring, const ProjectedCorners& corners, std::vector<EarClipper::Triangle>& out) {
+  out.resize(out.size() + corners.size() - 2);
+  EarClipper::Triangle* to = &out.back() - (corners.size() - 3);
   const auto push = [&](std::uint32_t corner) {
-    out.push_back({corners.point(ring.prev(corner)), corners.point(corner), corners.point(ring.next(corner))});
+    *to++ = {corners.point(ring.prev(corner)), corners.point(corner), corners.point(ring.next(corner))};
   };
   std::uint32_t at = 0;
   std::size_t failures = 0;
@@ -44,13 +46,14 @@ bool cut_ears(Ring& ring, const ProjectedCorners& corners, std::vector<EarClippe
 // Without tables: a bit stands for each corner.
 class EarClipper::SmallRing {
  public:
-  explicit SmallRing(const ProjectedCorners& corners) : corners_(corners) {
-    const auto n = static_cast<std::uint32_t>(corners.size());
-    for (std::uint32_t i = 0; i < n; ++i) {
-      prev_[i] = static_cast<std::uint8_t>(i == 0 ? n - 1 : i - 1);
-      next_[i] = static_cast<std::uint8_t>(i + 1 == n ? 0 : i + 1);
-      find_blunt(i);
+  SmallRing(const ProjectedCorners& corners, std::uint32_t blunt) : corners_(corners), blunt_(blunt) {
+    const auto last = static_cast<std::uint8_t>(corners.size() - 1);
+    for (std::uint8_t i = 0; i < last; ++i) {
+      prev_[i + 1U] = i;
+      next_[i] = static_cast<std::uint8_t>(i + 1);
     }
+    prev_[0] = last;
+    next_[last] = 0;
   }
 
   [[nodiscard]] std::uint32_t prev(std::uint32_t i) const { return prev_[i]; }
@@ -87,7 +90,7 @@ class EarClipper::SmallRing {
   const ProjectedCorners& corners_;
   std::array<std::uint8_t, kSmall> prev_;
   std::array<std::uint8_t, kSmall> next_;
-  std::uint32_t blunt_ = 0;
+  std::uint32_t blunt_;
 };
 
 // Ears are compared with what lies beside them, which is looked up in rows along both axes.
@@ -185,11 +188,13 @@ class EarClipper::LargeRing {
 };
 
 bool EarClipper::triangulate(const ProjectedCorners& corners, std::vector<Triangle>& out) {
-  if (corners.size() <= kSmall) {
-    SmallRing ring(corners);
-    return cut_ears(ring, corners, out);
-  }
+  if (corners.size() <= kSmall) return triangulate_small(corners, corners.blunt_corners(), out);
   LargeRing ring(*this, corners);
+  return cut_ears(ring, corners, out);
+}
+
+bool EarClipper::triangulate_small(const ProjectedCorners& corners, std::uint32_t blunt, std::vector<Triangle>& out) {
+  SmallRing ring(corners, blunt);
   return cut_ears(ring, corners, out);
 }
 

@@ -26,6 +26,9 @@ class EarClipper {
   /// beside it along a coordinate axis: O(n r) at worst, with about a nanosecond a step.
   bool triangulate(const ProjectedCorners& corners, std::vector<Triangle>& out);
 
+  /// The same for at most kSmall corners whose blunt ones are known (ProjectedCorners::blunt_corners).
+  static bool triangulate_small(const ProjectedCorners& corners, std::uint32_t blunt, std::vector<Triangle>& out);
+
  private:
   class SmallRing;
   class LargeRing;

@@ -17,13 +17,17 @@ void ProjectedCorners::assign(std::span<const std::uint32_t> corners, std::size_
   sign_ = sign;
   axes_ = {(axis + 1) % 3, (axis + 2) % 3};
   if (sign < 0) std::swap(axes_[0], axes_[1]);
-  corners_.resize(corners.size());
+  size_ = corners.size();
+  if (corners_.size() < size_) corners_.resize(size_);
+  small_.clear();
   std::array<double, 2> low{HUGE_VAL, HUGE_VAL};
   std::array<double, 2> high{-HUGE_VAL, -HUGE_VAL};
+  const std::span<const std::array<double, 3>> approximate = points_.approximate();
+  const auto [first, second] = axes_;
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const std::array<double, 3>& p = points_.approximate(corners[i]);
-    const double x = p[axes_[0]];
-    const double y = p[axes_[1]];
+    const std::array<double, 3>& p = approximate[corners[i]];
+    const double x = p[first];
+    const double y = p[second];
     corners_[i] = {x, y, corners[i], static_cast<std::uint32_t>(i)};
     low = {std::min(low[0], x), std::min(low[1], y)};
     high = {std::max(high[0], x), std::max(high[1], y)};
@@ -47,18 +51,50 @@ void ProjectedCorners::assign(std::span<const std::uint32_t> corners, std::size_
   }
 }
 
+std::uint32_t ProjectedCorners::blunt_corners() const {
+  const auto n = static_cast<std::uint32_t>(size_);
+  std::uint32_t blunt = 0;
+  for (std::uint32_t i = n - 1, k = 0; k < n; i = k++) {
+    if (!turns_left(i == 0 ? n - 1 : i - 1, i, k)) blunt |= 1U << i;
+  }
+  return blunt;
+}
+
 int ProjectedCorners::unsure_turn(std::uint32_t i, std::uint32_t j, std::uint32_t k) const {
   if (bound_ == 0) {  // all was computed exactly, so it is 0
     monitor_.count_filter();
     return 0;
   }
-  return sign_ * points_.orientation_along(point(i), point(j), point(k), axis_, monitor_);
+  const MeshPoints::Small* p = small(i);
+  const MeshPoints::Small* q = small(j);
+  const MeshPoints::Small* r = small(k);
+  if (p == nullptr || q == nullptr || r == nullptr) {
+    return sign_ * points_.orientation_along(point(i), point(j), point(k), axis_, monitor_);
+  }
+  monitor_.count_exact();
+  return sign_ * MeshPoints::orientation_along(*p, *q, *r, axis_);
+}
+
+const MeshPoints::Small* ProjectedCorners::small(std::uint32_t i) const {
+  if (small_.empty()) small_.resize(size_);
+  MeshPoints::Small& coordinates = small_[i];
+  std::int64_t& w = coordinates[3];
+  if (w == 0 && !points_.read_small(point(i), coordinates)) w = -1;
+  return w > 0 ? &coordinates : nullptr;
+}
+
+int ProjectedCorners::compare(std::uint32_t i, std::uint32_t k, std::size_t axis) const {
+  const MeshPoints::Small* p = small(i);
+  const MeshPoints::Small* q = small(k);
+  if (p == nullptr || q == nullptr) return points_.compare(point(i), point(k), axis);
+  return MeshPoints::compare(*p, *q, axis);
 }
 
 bool ProjectedCorners::before_exact(const Corner& a, const Corner& b) const {
   if (a.point == b.point) return false;
-  if (const int order = points_.compare(a.point, b.point, axes_[0]); order != 0) return order < 0;
-  if (const int order = points_.compare(a.point, b.point, axes_[1]); order != 0) return order < 0;
+  if (const int order = compare(a.index, b.index, axes_[0]); order != 0) return order < 0;
+  if (std::abs(a.y - b.y) > gap_[1]) return a.y < b.y;
+  if (const int order = compare(a.index, b.index, axes_[1]); order != 0) return order < 0;
   return a.point < b.point;
 }
 

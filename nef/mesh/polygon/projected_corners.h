@@ -33,7 +33,7 @@ class ProjectedCorners {
   /// one, and +1 if it turns counterclockwise there as MeshPoints::orientation_along sees it, else -1. O(n).
   void assign(std::span<const std::uint32_t> corners, std::size_t axis, int sign);
 
-  [[nodiscard]] std::size_t size() const { return corners_.size(); }
+  [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] const Corner& operator[](std::uint32_t i) const { return corners_[i]; }
   [[nodiscard]] std::uint32_t point(std::uint32_t i) const { return corners_[i].point; }
 
@@ -56,6 +56,9 @@ class ProjectedCorners {
     }
     return unsure_turn(i, j, k) > 0;
   }
+
+  /// Of a ring of at most 32 corners in their order: a bit for each that does not turn counterclockwise.
+  [[nodiscard]] std::uint32_t blunt_corners() const;
 
   /// A triangle of corners that turn counterclockwise, asked which other ones it holds.
   class Triangle {
@@ -117,16 +120,22 @@ class ProjectedCorners {
   // Where the bound leaves it open. Not in the header, so that what calls for a turn stays short.
   [[nodiscard]] int unsure_turn(std::uint32_t i, std::uint32_t j, std::uint32_t k) const;
   [[nodiscard]] bool before_exact(const Corner& a, const Corner& b) const;
+  [[nodiscard]] int compare(std::uint32_t i, std::uint32_t k, std::size_t axis) const;
+  [[nodiscard]] const MeshPoints::Small* small(std::uint32_t i) const;
 
   const MeshPoints& points_;
   Monitor monitor_;
   std::size_t axis_ = 2;
   int sign_ = 1;
   std::array<std::size_t, 2> axes_{0, 1};
-  std::vector<Corner> corners_;
+  std::vector<Corner> corners_;  // the first size_ of them
+  std::size_t size_ = 0;
   double bound_ = 0;             // a turn of this magnitude in doubles is one; 0 if all turns are exact
   std::array<double, 2> gap_{};  // coordinates that differ by more do so in truth, too
   bool ordered_ = false;         // the doubles are the coordinates
+  // Of corners that doubles did not tell apart, which are asked about again and again, as those on one line are: w is 0
+  // of those not read yet, -1 of those that have none. Empty until the first such question about the polygon.
+  mutable std::vector<MeshPoints::Small> small_;
 };
 
 }  // namespace nef

@@ -117,11 +117,13 @@ bool Triangulator::triangulate(std::span<const std::uint32_t> corners, std::span
   if (ring_end.size() == 1 && corners.size() == 4) return cut_four(out);
   const std::size_t old = out.size();
   if (ring_end.size() == 1) {
-    if (is_convex()) {
+    const bool is_small = corners.size() <= EarClipper::kSmall;
+    const std::uint32_t blunt = is_small ? projected_.blunt_corners() : 0;
+    if (is_small ? blunt == 0 && goes_around_once() : is_convex()) {
       cut_convex(corners, out);
       return true;
     }
-    if (corners.size() <= EarClipper::kSmall && ears_.triangulate(projected_, out)) return true;
+    if (is_small && EarClipper::triangulate_small(projected_, blunt, out)) return true;
     out.resize(old);
   }
   if (sweep_.triangulate(projected_, ring_end, out)) return true;

@@ -362,6 +362,30 @@ TEST_CASE("Stars with holes on their rays are triangulated") {
   }));
 }
 
+// Sides with corners on them: every second one a little farther on, where its coordinates take more than a word. The
+// points are neither small integers nor told apart by doubles.
+TEST_CASE("Corners on one line are put in order whether their coordinates are short or long") {
+  const Rational tiny(Integer(1), Integer("1000000000000000000000000000000007"));
+  const std::array<std::array<Rational, 2>, 5> ends{{{0, 0}, {4, 0}, {4, 4}, {2, 1}, {0, 4}}};
+  for (int per_side = 1; per_side < 9; ++per_side) {
+    Polygon polygon;
+    polygon.rings.emplace_back();
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      const std::array<Rational, 2>& to = ends[(i + 1) % ends.size()];
+      for (int k = 0; k < per_side; ++k) {
+        Rational t = Rational(k) / per_side;
+        if (k % 2 == 1) t += tiny;
+        const Rational x = ends[i][0] + t * (to[0] - ends[i][0]);
+        const Rational y = ends[i][1] + t * (to[1] - ends[i][1]);
+        polygon.rings[0].push_back(static_cast<std::uint32_t>(polygon.points.size()));
+        polygon.points.push_back({x / 998244353 + Rational(1, 1000003), y / 998244353 - Rational(1, 7), 0});
+      }
+    }
+    CAPTURE(per_side);
+    CHECK(fault(polygon) == "");
+  }
+}
+
 TEST_CASE("Holes given as rings of their own touch each other and the outer ring") {
   for (const Rational& reach : {Rational(1), Rational(1, 2), Rational(99, 100)}) {
     for (int n = 1; n < 6; ++n) {

@@ -44,6 +44,8 @@ std::span<const Fuzzer> fuzzers() {
       Fuzzer{"rigid-paths",
              "robots that turn freely among boxes and prisms, by a grid of poses and by balls in the robot",
              fuzz_rigid_paths},
+      Fuzzer{"slots", "prisms that turn freely, and a slot of exactly their cross section in a turned wall",
+             fuzz_slots},
       Fuzzer{"ranges", "ranges of motion of hinges and sliders, by Booleans at many values", fuzz_ranges},
       Fuzzer{"visibility", "convex prisms among convex prisms, by an exact visibility graph", fuzz_visibility},
       Fuzzer{"wide", "solids among meshes: paths with room, swept piece by piece and against the complete way",

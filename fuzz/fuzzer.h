@@ -81,6 +81,7 @@ void fuzz_turning(const Case& the_case);
 void fuzz_motions(const Case& the_case);
 void fuzz_no_paths(const Case& the_case);
 void fuzz_rigid_paths(const Case& the_case);
+void fuzz_slots(const Case& the_case);
 void fuzz_ranges(const Case& the_case);
 void fuzz_visibility(const Case& the_case);
 void fuzz_wide(const Case& the_case);

@@ -123,6 +123,25 @@ TEST_CASE("exact contact at an angle of parallel faces is found: a slot turned b
   }
 }
 
+TEST_CASE("Of ways round the ring the one over fewer cells is taken") {
+  // Nothing is in the way: all cells are open, and then all are bridged.
+  for (const auto& [degrees, turned] : {std::pair(90, 1), std::pair(270, -1), std::pair(360, 0), std::pair(450, 1)}) {
+    INFO(degrees);
+    const Scene scene = scene_of(R"J({"robot": "box(-2,-1/2,0, 2,1/2,1)", "obstacles": ["box(8,8,0, 9,9,1)"],
+        "rotation": {"axis": "z"}, "start": [0,0,0, 0], "goal": [1,0,0, )J" +
+                                 std::to_string(degrees) + R"J(], "box": [[-5,-5,0],[5,5,0]]})J");
+    const TurningQuestion question = question_of(scene);
+    const TurningAnswer answer = find_turning_path(scene, question);
+    check_path(scene, question, answer);
+    CHECK(answer.path.back().turn - answer.path.front().turn == turned);
+    std::size_t turns = 0;
+    for (std::size_t i = 1; i < answer.path.size(); ++i) {
+      if (answer.path[i].turn != answer.path[i - 1].turn) ++turns;
+    }
+    CHECK(turns == static_cast<std::size_t>(std::abs(turned)));
+  }
+}
+
 TEST_CASE("random boxes in the plane against a fine grid of poses") {
   // What the grid reaches is reachable: its steps are too small to jump over anything here. What it does not reach may
   // be reachable all the same.

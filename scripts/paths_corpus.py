@@ -459,6 +459,7 @@ class Corpus:
             if "rotation" not in path.read_text() and "rotating" not in path.name:
                 commands += [f"planner --tight {path}", f"planner {path} --clearance --prefer roomy -o c.txt"]
             self.add(f"scene {path.name}", *commands)
+        self.rigid_scenes()
         for path in sorted(folder.glob("assembly/*.json")):
             if path.stem != "burr":
                 self.add(f"assembly {path.name}", f"planner --assembly {path}")
@@ -484,6 +485,27 @@ class Corpus:
                 f"planner {path} --clearance -o c.txt",
                 f"planner --tight {path}",
             )
+
+    def rigid_scenes(self) -> None:
+        """Robots that turn freely: a path through slices, one through a slot that fits, and a proof."""
+        elbow = self.data / "planner" / "rigid" / "elbow.json"
+        self.add("rigid elbow", f"planner {elbow} -o p.path --proof p.proof")
+        turn = "24/25,-7/25,0,0, 7/25,24/25,0,0, 0,0,1,0"
+        bar = "box(-2,-1/2,-3/2, 2,1/2,3/2)"
+        slot = f"transform(box(0,-30,-30, 4,30,30) - box(-1,-1/2,-3/2, 5,1/2,3/2), {turn})"
+        cube = "box(-1/2,-1/2,-1/2, 1/2,1/2,1/2)"
+        hole = "box(0,-30,-30, 1/2,30,30) - box(-1,-9/20,-9/20, 1,9/20,9/20)"
+        for name, robot, wall, goal in (("slot", bar, slot, [8, 2, 0]), ("cube", cube, hole, [8, 2, 1])):
+            scene = {
+                "robot": robot,
+                "obstacles": [wall],
+                "box": [[-9, -9, -9], [9, 9, 9]],
+                "rotation": "SO(3)",
+                "start": {"position": [-4, -1, 0], "quaternion": [1, 0, 0, 0]},
+                "goal": {"position": goal, "quaternion": [1, 0, 0, 0]},
+            }
+            path = self.write(f"rigid_{name}.json", json.dumps(scene))
+            self.add(f"rigid {name}", f"planner {path} -o p.path --proof p.proof")
 
 
 def cases(data: pathlib.Path, folder: pathlib.Path, seed: int) -> list[Case]:

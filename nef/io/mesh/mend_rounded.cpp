@@ -252,6 +252,7 @@ class Mender {
       for_each_side(triangles_[t], [&](std::uint32_t u, std::uint32_t v) { neighbours_[pair_key(u, v)].push_back(t); });
     }
     touched_.assign(triangles_.size(), false);
+    flip_of_round_ = 0;
     for (const std::uint32_t t : found.degenerate) {
       if (!remove_thin(t)) shake(t, round);
     }
@@ -259,6 +260,7 @@ class Mender {
       if (remove_if_thin(t, round) || remove_thin_neighbour(t, round)) continue;
       shake(t, round);
     }
+    flips_ += flip_of_round_;
   }
 
   bool remove_if_thin(std::uint32_t t, int round) { return is_thin(t, round) && remove_thin(t); }
@@ -285,18 +287,22 @@ class Mender {
     return {squared_distance(t[0], t[1]), squared_distance(t[1], t[2]), squared_distance(t[2], t[0])};
   }
 
+  // The distance of a corner from the longest side; 0 if all corners are one.
+  [[nodiscard]] double height(const VertexTriple& c) const {
+    const std::array<double, 3> sides = squared_sides(c);
+    const double longest = std::sqrt(*std::max_element(sides.begin(), sides.end()));
+    const Double3 n = cross(minus(points_[c[1]], points_[c[0]]), minus(points_[c[2]], points_[c[0]]));
+    return longest > 0 ? std::hypot(n[0], n[1], n[2]) / longest : 0;
+  }
+
   [[nodiscard]] bool is_thin(std::uint32_t t, int round) const {
     const VertexTriple& c = triangles_[t];
     double reach = 0;
     for (const std::uint32_t corner : c) {
       for (const double x : points_[corner]) reach = std::max(reach, std::abs(x));
     }
-    const std::array<double, 3> sides = squared_sides(c);
-    const double longest = std::sqrt(*std::max_element(sides.begin(), sides.end()));
-    const Double3 n = cross(minus(points_[c[1]], points_[c[0]]), minus(points_[c[2]], points_[c[0]]));
-    const double area = std::hypot(n[0], n[1], n[2]);
     const double unit = rounding_.next(reach, true) - reach;
-    return area <= longest * unit * std::ldexp(2, round);
+    return height(c) <= unit * std::ldexp(2, round);
   }
 
   // Contracts a needle, flips the long side of a cap. False if neither can be done.
@@ -325,6 +331,7 @@ class Mender {
       if (corner != u && corner != v) x = corner;
     }
     if (x == w || !neighbours_[pair_key(x, w)].empty() || !neighbours_[pair_key(w, x)].empty()) return false;
+    flip_of_round_ = std::max(flip_of_round_, height(triangles_[t]));
     triangles_[t] = {u, x, w};
     triangles_[other] = {x, v, w};
     face_of_[t] = face_of_[other];  // of the two, the cap has no area
@@ -368,6 +375,7 @@ class Mender {
         result.largest_move = std::max(result.largest_move, std::abs(nearest_double(move)));
       }
     }
+    result.largest_move += flips_;
     return result;
   }
 
@@ -381,6 +389,8 @@ class Mender {
   std::vector<std::uint32_t> face_of_;  // of each triangle: the face of the exact mesh
   std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> neighbours_;  // by directed side
   std::vector<bool> touched_;                                                 // triangles that this round changed
+  double flip_of_round_ = 0;  // height of the highest cap that is flipped in a round: so far a face moves by that
+  double flips_ = 0;          // the sum over all rounds
 };
 
 double next_double(double x, bool up) { return std::nextafter(x, up ? HUGE_VAL : -HUGE_VAL); }

@@ -34,7 +34,9 @@ struct MendedMesh {
   std::string problem;      ///< the first problem if it is not legal
   std::size_t moved = 0;    ///< vertices that are not at the nearest numbers, so that it is legal
   std::size_t dropped = 0;  ///< slivers that are gone
-  double largest_move = 0;  ///< of a vertex from its exact place, along an axis; 0 if none was moved or dropped
+  /// How far a vertex is from its exact place at most, along an axis, and how far the sides of slivers that were
+  /// flipped are from those before. 0 if nothing was mended.
+  double largest_move = 0;
   /// Of each face: the face of the exact mesh that it comes from; empty if the faces are that mesh's.
   std::vector<std::uint32_t> face_of;
 };

@@ -182,6 +182,7 @@ TEST_CASE("A vertex that is rounded over a sharp edge is joined to the face beyo
     CHECK(mended.problem.empty());
     CHECK(mended.legal);
     CHECK(mended.moved == 0);
+    CHECK(mended.largest_move < 1e-14);
     CHECK(why_illegal(mended.mesh).empty());
   }
   CHECK(repaired > 5);

@@ -7,6 +7,7 @@
 #include "bench/generators.h"
 #include "bench/report.h"
 #include "nef/base/freed_memory.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/base/timing/stopwatch.h"
 #include "nef/export/to_mesh.h"
 #include "nef/polyhedron.h"
@@ -20,20 +21,39 @@ Polyhedron united(const std::vector<Polyhedron>& operands, std::size_t count, co
   return result;
 }
 
+Polyhedron imported(const Operand& operand, const Monitor& monitor) {
+  MeshOptions options;
+  options.monitor = monitor;
+  options.as_surface = operand.surface;
+  return from_mesh(operand.mesh, options);
+}
+
+// One mesh after the other, so that no two are in memory; on several threads side by side, as programs read several
+// files (Session::load_all).
 std::vector<Polyhedron> build(const std::string& directory, const Monitor& monitor, Report& report) {
   std::vector<Polyhedron> operands;
   double seconds = 0;
   double wall_seconds = 0;
-  read_operands(directory, [&](const Operand& operand) {
+  const auto timed = [&](const auto& step) {
     const Stopwatch watch;
     const nef::Stopwatch clock;
-    MeshOptions options;
-    options.monitor = monitor;
-    options.as_surface = operand.surface;
-    operands.push_back(from_mesh(operand.mesh, options));
+    step();
     seconds += watch.seconds();
     wall_seconds += clock.seconds();
-  });
+  };
+  if (monitor.threads() == 1) {
+    read_operands(directory,
+                  [&](const Operand& operand) { timed([&] { operands.push_back(imported(operand, monitor)); }); });
+  } else {
+    std::vector<Operand> meshes;
+    read_operands(directory, [&](const Operand& operand) { meshes.push_back(operand); });
+    operands.resize(meshes.size());
+    timed([&] {
+      parallel_for(meshes.size(), monitor, [&](std::size_t i, const Monitor& own) {
+        operands[i] = imported(meshes[i], own.on_threads(monitor.threads()));
+      });
+    });
+  }
   return_freed_memory();  // as read_polyhedron does behind large files
   report.build_s.push_back(seconds);
   report.build_wall_s.push_back(wall_seconds);

@@ -121,19 +121,16 @@ void FaceLinks::pair_edges() {
   }
 }
 
-// One thread lists all in one block, which is taken as it is.
 void FaceLinks::list_facets() {
-  const std::size_t count = plain_.faces.plane.size();
-  const std::size_t size = monitor_.threads() == 1 ? std::max<std::size_t>(count, 1) : kBlock;
-  std::vector<Facets> blocks((count + size - 1) / size);
-  parallel_for_ranges(count, size, monitor_, [&](std::size_t first, std::size_t last, const Monitor&) {
-    Facets& block = blocks[first / size];
+  const auto list = [this](std::size_t first, std::size_t last, const Monitor&) {
+    Facets block;
     block.facets.reserve(last - first);
     block.ends.reserve(last - first + 1);
     block.corners.reserve(plain_.faces.begin[last] - plain_.faces.begin[first]);
     for (auto f = static_cast<std::uint32_t>(first); f < last; ++f) list_facet(f, block);
-  });
-  for (Facets& block : blocks) join(std::move(block));
+    return block;
+  };
+  for (Facets& block : blocks_of(plain_.faces.plane.size(), kBlock, monitor_, list)) join(std::move(block));
 }
 
 void FaceLinks::list_facet(std::uint32_t face, Facets& out) const {

@@ -15,6 +15,7 @@
 
 #include "nef/base/error.h"
 #include "nef/base/fast_path.h"
+#include "nef/base/threads/group_by.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/boolean/overlay_complexes.h"
 #include "nef/construct/face_links.h"
@@ -169,20 +170,18 @@ class SolidBuilder {
   }
 
   void collect_corners() {
-    first_.assign(f_.points.size() + 1, 0);
-    for (const std::uint32_t v : f_.corners) ++first_[v + 1];
-    for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
     corners_.resize(f_.corners.size());
-    std::vector<std::uint32_t> at(first_.begin(), first_.end() - 1);
-    for (std::uint32_t face = 0; face + 1 < f_.begin.size(); ++face) {
-      const std::uint32_t begin = f_.begin[face];
-      const std::uint32_t size = f_.begin[face + 1] - begin;
-      for (std::uint32_t i = 0; i < size; ++i) {
-        const std::uint32_t v = f_.corners[begin + i];
-        corners_[at[v]++] = {face, f_.corners[begin + (i + 1 == size ? 0 : i + 1)],
-                             f_.corners[begin + (i == 0 ? size - 1 : i - 1)], begin + i};
+    const auto each_corner = [this](const auto& visit) {
+      for (std::uint32_t face = 0; face + 1 < f_.begin.size(); ++face) {
+        for (std::uint32_t i = f_.begin[face]; i < f_.begin[face + 1]; ++i) visit(f_.corners[i], face, i);
       }
-    }
+    };
+    const auto put = [this](std::uint32_t place, std::uint32_t face, std::uint32_t i) {
+      const std::uint32_t begin = f_.begin[face];
+      const std::uint32_t end = f_.begin[face + 1];
+      corners_[place] = {face, f_.corners[i + 1 == end ? begin : i + 1], f_.corners[i == begin ? end - 1 : i - 1], i};
+    };
+    first_ = group_by(f_.points.size(), each_corner, put, for_vertices(f_.points.size(), monitor_));
   }
 
   // Of the edge to w among the spokes; their number if it is a new one, which then is added.

@@ -156,8 +156,8 @@ std::vector<std::uint32_t> hashes_of(const PlaneRows& rows, const Monitor& monit
 
 // The rows whose hash another one has, too, and few others: those whose hash sets a bit that was set before.
 std::vector<std::uint32_t> rows_of_common_hash(std::span<const std::uint32_t> hashes) {
-  constexpr std::size_t kBits = 32;  // a row: one of so many is taken for another one's
-  const std::size_t count = std::bit_ceil(kBits * (hashes.size() + 2));
+  constexpr std::size_t kBits = 8;  // of a row: few enough for a cache, many enough to take few for another one's
+  const std::size_t count = std::bit_ceil(std::max<std::size_t>(kBits * hashes.size(), 64));
   struct Bits {
     std::uint64_t once = 0;
     std::uint64_t twice = 0;

@@ -9,9 +9,9 @@
 
 #include "nef/base/error.h"
 #include "nef/base/fast_path.h"
+#include "nef/base/threads/group_by.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/geometry/plane_finder.h"
-#include "nef/geometry/search/spatial_order.h"
 #include "nef/mesh/mesh_check.h"
 #include "nef/number/int128.h"
 
@@ -22,12 +22,14 @@ MeshFaces::MeshFaces(const Mesh& mesh, const MeshSurface& surface, const MeshOpt
       surface_(surface),
       options_(options),
       messages_(messages),
-      order_(spatial_order(surface.points.approximate(), options.monitor)),
       rank_(mesh.vertices.size()),
       point_of_(mesh.vertices.size()) {
-  order_.erase(std::remove_if(order_.begin(), order_.end(), [&](std::uint32_t v) { return surface.place[v] != v; }),
-               order_.end());
-  for (std::uint32_t i = 0; i < order_.size(); ++i) rank_[order_[i]] = i;
+  order_.reserve(surface.curve.size());
+  for (const SpatialKey& key : surface.curve) {
+    if (surface.place[key.index] != key.index) continue;
+    rank_[key.index] = static_cast<std::uint32_t>(order_.size());
+    order_.push_back(key.index);
+  }
 }
 
 SolidFaces solid_faces(const CheckedSurface& checked, const MeshOptions& options, Messages* messages) {
@@ -50,8 +52,7 @@ class MeshFaces::Block {
  public:
   Block(const MeshFaces& all, std::span<const std::uint32_t> faces);
 
-  SolidFaces take_faces() { return std::move(f_); }
-  Messages take_messages() { return std::move(messages_); }
+  Listed take() { return {std::move(f_), std::move(messages_)}; }
 
  private:
   void add_face(std::uint32_t face);
@@ -79,34 +80,25 @@ SolidFaces MeshFaces::collect(std::span<const std::uint32_t> faces) {
   return std::move(f_);
 }
 
-// On one thread all are one block, whose tables are taken as they are.
 void MeshFaces::add_faces(std::span<const std::uint32_t> faces) {
   constexpr std::size_t kBlock = 8192;
-  const Monitor monitor = for_vertices(faces.size(), options_.monitor);
-  const std::size_t size = monitor.threads() == 1 ? std::max<std::size_t>(faces.size(), 1) : kBlock;
-  std::vector<SolidFaces> blocks((faces.size() + size - 1) / size);
-  std::vector<Messages> told(blocks.size());
-  parallel_for_ranges(faces.size(), size, monitor, [&](std::size_t first, std::size_t last, const Monitor&) {
-    Block block(*this, faces.subspan(first, last - first));
-    blocks[first / size] = block.take_faces();
-    told[first / size] = block.take_messages();
-  });
-  join(std::move(blocks));
-  for (const Messages& block : told) {
-    if (messages_ != nullptr) messages_->insert(messages_->end(), block.begin(), block.end());
-  }
+  join(blocks_of(faces.size(), kBlock, for_vertices(faces.size(), options_.monitor),
+                 [&](std::size_t first, std::size_t last, const Monitor&) {
+                   return Block(*this, faces.subspan(first, last - first)).take();
+                 }));
 }
 
-void MeshFaces::join(std::vector<SolidFaces>&& blocks) {
-  SolidFaces all = blocks.empty() ? SolidFaces() : std::move(blocks.front());
-  std::size_t faces = all.plane.size();
-  std::size_t corners = all.corners.size();
-  std::size_t limbs = all.planes.limbs();
-  for (const SolidFaces& block : blocks) {
-    faces += block.plane.size();
-    corners += block.corners.size();
-    limbs += block.planes.limbs();
+void MeshFaces::join(std::vector<Listed>&& blocks) {
+  std::size_t faces = 0;
+  std::size_t corners = 0;
+  std::size_t limbs = 0;
+  for (const Listed& block : blocks) {
+    faces += block.faces.plane.size();
+    corners += block.faces.corners.size();
+    limbs += block.faces.planes.limbs();
+    if (messages_ != nullptr) messages_->insert(messages_->end(), block.messages.begin(), block.messages.end());
   }
+  SolidFaces& all = blocks.front().faces;
   if (blocks.size() > 1) {
     all.plane.reserve(faces);
     all.planes.reserve(faces, limbs);
@@ -114,7 +106,7 @@ void MeshFaces::join(std::vector<SolidFaces>&& blocks) {
     all.corners.reserve(corners);
   }
   for (std::size_t i = 1; i < blocks.size(); ++i) {
-    const SolidFaces block = std::move(blocks[i]);
+    const SolidFaces block = std::move(blocks[i].faces);
     const auto rows = static_cast<std::uint32_t>(all.planes.size());
     const auto before = static_cast<std::uint32_t>(all.corners.size());
     all.planes.append_new(block.planes, 0, block.planes.size());
@@ -128,26 +120,22 @@ void MeshFaces::join(std::vector<SolidFaces>&& blocks) {
   f_.corners = std::move(all.corners);
 }
 
-// Faces by their first point, so that their planes, too, come in spatial order.
+// Faces by their first point, so that their planes, too, come in spatial order; those without corners are left out.
 std::vector<std::uint32_t> MeshFaces::in_order_of_points(std::span<const std::uint32_t> faces) const {
   const auto count = static_cast<std::uint32_t>(faces.empty() ? mesh_.face_count() : faces.size());
-  const auto face = [&](std::uint32_t i) { return faces.empty() ? i : faces[i]; };
-  const auto least = [&](std::uint32_t i) {
+  const Monitor monitor = for_vertices(count, options_.monitor);
+  const auto face = [&](std::size_t i) { return faces.empty() ? static_cast<std::uint32_t>(i) : faces[i]; };
+  const std::vector<std::uint32_t> first_point = vector_of(count, monitor, [&](std::size_t i) {
     std::uint32_t result = 0xffffffffU;
     for (const std::uint32_t v : mesh_.face(face(i))) result = std::min(result, point_of_[surface_.place[v]]);
     return result;
+  });
+  const auto each_face = [&](const auto& visit) {
+    for (std::uint32_t i = 0; i < count; ++i) visit(first_point[i], i);
   };
-  std::vector<std::uint32_t> begin(f_.points.size() + 1, 0);
-  std::vector<std::uint32_t> order;
-  order.reserve(count);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    if (!mesh_.face(face(i)).empty()) ++begin[least(i) + 1];
-  }
-  for (std::size_t p = 1; p < begin.size(); ++p) begin[p] += begin[p - 1];
-  order.resize(begin.back());
-  for (std::uint32_t i = 0; i < count; ++i) {
-    if (!mesh_.face(face(i)).empty()) order[begin[least(i)]++] = face(i);
-  }
+  std::vector<std::uint32_t> order(count);
+  const auto put = [&](std::uint32_t place, std::uint32_t i) { order[place] = face(i); };
+  order.resize(group_by(f_.points.size(), each_face, put, monitor).back());
   return order;
 }
 

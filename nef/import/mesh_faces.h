@@ -44,9 +44,13 @@ class MeshFaces {
   PointId push_small_point(const std::array<std::int64_t, 3>& x);
   [[nodiscard]] std::vector<std::uint32_t> in_order_of_points(std::span<const std::uint32_t> faces) const;
   void add_faces(std::span<const std::uint32_t> faces);
-  void join(std::vector<SolidFaces>&& blocks);
-
+  // Some faces as a block of work has listed them.
+  struct Listed {
+    SolidFaces faces;
+    Messages messages;
+  };
   class Block;
+  void join(std::vector<Listed>&& blocks);
 
   const Mesh& mesh_;
   const MeshSurface& surface_;

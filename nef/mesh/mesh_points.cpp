@@ -7,10 +7,13 @@
 #include "nef/mesh/mesh_points.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "nef/base/fast_path.h"
+#include "nef/base/threads/parallel.h"
 #include "nef/number/int128.h"
 
 namespace nef {
@@ -22,10 +25,8 @@ constexpr double kModerate = 1e75;
 // Coordinates below 2^40 give differences below 2^41, minors below 2^83 and determinants below 2^126.
 constexpr std::int64_t kIntegerLimit = std::int64_t{1} << 40U;
 
-using Homogeneous = MeshPoints::Small;
-
 // b - a along an axis, scaled by the positive product of their denominators. Below 2^125.
-Int128 short_difference(const Homogeneous& a, const Homogeneous& b, std::size_t axis) {
+Int128 short_difference(const MeshPoints::Small& a, const MeshPoints::Small& b, std::size_t axis) {
   return static_cast<Int128>(b[axis]) * a[3] - static_cast<Int128>(a[axis]) * b[3];
 }
 
@@ -44,7 +45,7 @@ std::int64_t reduced_denominator(const PointTable& points, PointId point, std::s
 // from `first` on, as many as there is room for (of two, the second may be the first axis).
 void MeshPoints::difference(std::uint32_t a, std::uint32_t b, std::span<Integer> out, std::size_t first) const {
   require_numbers();
-  if (Homogeneous from{}, to{};
+  if (Small from{}, to{};
       kFastPaths && source().small_coordinates(place(a), from) && source().small_coordinates(place(b), to)) {
     for (std::size_t k = 0; k < out.size(); ++k) assign(out[k], short_difference(from, to, (first + k) % 3));
     return;
@@ -95,9 +96,9 @@ class MeshPoints::PlaneThrough {
   Integer sum_;
 };
 
-MeshPoints::MeshPoints(std::span<const Rational3> points) {
-  own_.reserve(points.size());
-  if (!make_integers(points)) {
+MeshPoints::MeshPoints(std::span<const Rational3> points, const Monitor& monitor) {
+  if (!make_integers(points, for_vertices(points.size(), monitor))) {
+    own_.reserve(points.size());
     table_.reserve(points.size());
     for (const Rational3& point : points) {
       table_.push(point);
@@ -152,7 +153,7 @@ bool MeshPoints::find_denominator(std::span<const std::uint32_t> asked) {
   std::int64_t last = 1;
   for (std::size_t i = 0; i < count; ++i) {
     const PointId place = places_[asked.empty() ? i : asked[i]];
-    Homogeneous h;
+    Small h;
     if (!other_table_->small_coordinates(place, h)) {
       for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!enlarge_denominator(reduced_denominator(*other_table_, place, axis))) return false;
@@ -199,42 +200,66 @@ bool MeshPoints::scale_to_integers(std::span<const std::array<double, 3>> double
   return true;
 }
 
-// Below 2^40 every integer is a double.
-bool MeshPoints::make_integers(std::span<const Rational3> points) {
+namespace {
+
+// Of some points; 0 if it is not below the limit.
+std::int64_t common_denominator(std::span<const Rational3> points) {
   std::int64_t denominator = 1;
   for (const Rational3& point : points) {
     for (const Rational& x : point) {
       const mpz_srcptr den = x.get_den_mpz_t();
-      if (mpz_size(den) != 1 || mpz_getlimbn(den, 0) >= static_cast<mp_limb_t>(kIntegerLimit)) return false;
+      if (mpz_size(den) != 1 || mpz_getlimbn(den, 0) >= static_cast<mp_limb_t>(kIntegerLimit)) return 0;
       const auto d = static_cast<std::int64_t>(mpz_getlimbn(den, 0));
       if (d == 1 || d == denominator || denominator % d == 0) continue;
       const Int128 common = static_cast<Int128>(denominator / std::gcd(denominator, d)) * d;
-      if (common >= kIntegerLimit) return false;
+      if (common >= kIntegerLimit) return 0;
       denominator = static_cast<std::int64_t>(common);
     }
   }
-  for (const Rational3& point : points) {
-    std::array<double, 3>& to = own_.emplace_back();
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const mpz_srcptr num = point[axis].get_num_mpz_t();
-      const auto den = static_cast<std::int64_t>(mpz_getlimbn(point[axis].get_den_mpz_t(), 0));
-      bool fits = mpz_size(num) <= 1;
-      if (fits) {
-        const Unsigned128 scaled = static_cast<Unsigned128>(mpz_getlimbn(num, 0)) *
-                                   static_cast<std::uint64_t>(den == denominator ? 1 : denominator / den);
-        fits = scaled < static_cast<Unsigned128>(kIntegerLimit);
-        const auto size = static_cast<double>(static_cast<std::int64_t>(scaled));
-        to[axis] = mpz_sgn(num) < 0 ? -size : size;
+  return denominator;
+}
+
+// Times a multiple of its denominator; nothing if that is not below the limit.
+std::optional<double> integer_of(const Rational& x, std::int64_t denominator) {
+  const mpz_srcptr num = x.get_num_mpz_t();
+  if (mpz_size(num) > 1) return std::nullopt;
+  const auto den = static_cast<std::int64_t>(mpz_getlimbn(x.get_den_mpz_t(), 0));
+  const Unsigned128 scaled = static_cast<Unsigned128>(mpz_getlimbn(num, 0)) *
+                             static_cast<std::uint64_t>(den == denominator ? 1 : denominator / den);
+  if (scaled >= static_cast<Unsigned128>(kIntegerLimit)) return std::nullopt;
+  const auto size = static_cast<double>(static_cast<std::int64_t>(scaled));
+  return mpz_sgn(num) < 0 ? -size : size;
+}
+
+}  // namespace
+
+// Below 2^40 every integer is a double.
+bool MeshPoints::make_integers(std::span<const Rational3> points, const Monitor& monitor) {
+  constexpr std::size_t kBlock = 8192;
+  const std::vector<std::int64_t> of_blocks =
+      blocks_of(points.size(), kBlock, monitor, [&](std::size_t first, std::size_t last, const Monitor&) {
+        return common_denominator(points.subspan(first, last - first));
+      });
+  const bool is_small = std::all_of(of_blocks.begin(), of_blocks.end(),
+                                    [this](std::int64_t each) { return each != 0 && enlarge_denominator(each); });
+  std::atomic<bool> fits = is_small;
+  if (is_small) {
+    own_ = vector_of(points.size(), monitor, [&](std::size_t i) {
+      std::array<double, 3> result{};
+      for (std::size_t axis = 0; axis < 3 && fits; ++axis) {
+        const std::optional<double> x = integer_of(points[i][axis], denominator_);
+        if (!x) fits = false;
+        result[axis] = x.value_or(0);
       }
-      if (!fits) {
-        own_.clear();
-        return false;
-      }
-    }
+      return result;
+    });
   }
-  denominator_ = denominator;
-  are_integers_ = true;
-  return true;
+  if (!fits) {
+    own_.clear();
+    denominator_ = 1;
+  }
+  are_integers_ = fits;
+  return fits;
 }
 
 // PointTable promises doubles within 2^-51 relative, and within 2^-1074 below 2^-1022; the margin is twice the first

@@ -26,8 +26,8 @@ class OpenQuestion {};
 /// An immutable set of finite points that answers questions about their positions. All answers are exact.
 class MeshPoints {
  public:
-  /// Copies what it needs. O(n).
-  explicit MeshPoints(std::span<const Rational3> points);
+  /// Copies what it needs. O(n), on the threads of `monitor` where a common denominator is small.
+  explicit MeshPoints(std::span<const Rational3> points, const Monitor& monitor = {});
   /// The same for points that a table holds; all must be finite.
   explicit MeshPoints(PointTable points);
   /// Some finite points of a table, in an order of their own: `places`. `doubles` are their coordinates, each within
@@ -129,7 +129,7 @@ class MeshPoints {
  private:
   class PlaneThrough;
 
-  bool make_integers(std::span<const Rational3> points);
+  bool make_integers(std::span<const Rational3> points, const Monitor& monitor);
   bool enlarge_denominator(std::int64_t more);
   bool find_denominator(std::span<const std::uint32_t> asked);
   bool scale_to_integers(std::span<const std::array<double, 3>> doubles, std::span<const std::uint32_t> asked);

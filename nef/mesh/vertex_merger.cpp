@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/mesh/vertex_merger.h"
 
-#include <algorithm>
 #include <bit>
+
+#include "nef/base/threads/first_equal.h"
 
 namespace nef {
 namespace {
@@ -53,50 +54,20 @@ void VertexMerger::grow() {
   }
 }
 
-namespace {
-
-constexpr std::uint32_t kFree = 0xffffffffU;
-
-struct Slot {
-  std::uint32_t index = kFree;
-  std::uint32_t hash = 0;  // the half of it that does not choose the slot
-};
-
-// The first of those that equal each of `count` things.
-template <typename HashOf, typename Equal>
-std::vector<std::uint32_t> first_equal(std::size_t count, const HashOf& hash_of, const Equal& equal) {
-  const std::size_t size = std::bit_ceil(std::max<std::size_t>(2 * count, 2));
-  std::vector<Slot> slots(size);
-  std::vector<std::uint32_t> first(count);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint64_t hash = hash_of(i);
-    const auto upper = static_cast<std::uint32_t>(hash >> 32U);
-    std::size_t slot = hash & (size - 1);
-    while (slots[slot].index != kFree && (slots[slot].hash != upper || !equal(slots[slot].index, i))) {
-      slot = (slot + 1) & (size - 1);
-    }
-    if (slots[slot].index == kFree) slots[slot] = {i, upper};
-    first[i] = slots[slot].index;
-  }
-  return first;
-}
-
-}  // namespace
-
 std::vector<std::uint32_t> merge_equal(std::span<const Rational3> points) {
   return first_equal(
-      points.size(), [points](std::uint32_t i) { return hash_of(points[i]); },
+      points.size(), Monitor(), [points](std::size_t i) { return mixed_bits(hash_of(points[i])); },
       [points](std::uint32_t i, std::uint32_t j) { return points[i] == points[j]; });
 }
 
 std::vector<std::uint32_t> merge_equal(std::span<const std::array<double, 3>> points) {
-  const auto hash = [points](std::uint32_t i) {
+  const auto hash = [points](std::size_t i) {
     std::uint64_t result = 0;
-    // The bits in which short numbers differ go where a product spreads them from. -0 equals 0.
-    for (const double x : points[i]) result = mix(result, std::rotl(std::bit_cast<std::uint64_t>(x + 0.0), 24));
+    for (const double x : points[i])
+      result = mixed_bits(result ^ std::bit_cast<std::uint64_t>(x + 0.0));  // -0 equals 0
     return result;
   };
-  return first_equal(points.size(), hash,
+  return first_equal(points.size(), Monitor(), hash,
                      [points](std::uint32_t i, std::uint32_t j) { return points[i] == points[j]; });
 }
 

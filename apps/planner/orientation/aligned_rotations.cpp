@@ -23,15 +23,12 @@ struct Arm {
   Double3 unit;
 };
 
-Arm arm_along(const Rational3& v) {
-  Double3 rough{nearest_double(v[0]), nearest_double(v[1]), nearest_double(v[2])};
+Arm arm_along(const Integer3& v, const Rational& scale) {
+  const Rational3 exact{scale * v[0], scale * v[1], scale * v[2]};
+  Double3 rough{nearest_double(exact[0]), nearest_double(exact[1]), nearest_double(exact[2])};
   const double length = std::sqrt(dot(rough, rough));
   for (double& x : rough) x /= length;
-  return {v, rough};
-}
-
-Arm arm_along(const Integer3& v, const Rational& scale) {
-  return arm_along(Rational3{scale * v[0], scale * v[1], scale * v[2]});
+  return {exact, rough};
 }
 
 struct RobotDirection {

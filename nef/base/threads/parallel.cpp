@@ -62,25 +62,34 @@ class FirstFailure {
   std::exception_ptr thrown_;
 };
 
-// run_on_threads: body(0) .. body(count - 1) on several threads; body does not throw.
+// used_threads: how many a loop uses that may use so many (0: as many as the machine has). run_on_threads: body(0) ..
+// body(count - 1) on several threads; body does not throw.
 
 #ifdef NEF_THREAD_SANITIZER
 
 /// oneTBB comes without instrumentation, so ThreadSanitizer does not see how it hands work from thread to thread, and
 /// what it reports inside its tasks cannot be told from our own races. Under the sanitizer plain threads take its
 /// place.
+unsigned used_threads(unsigned threads) { return threads == 0 ? 4 : threads; }
+
 void run_on_threads(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& body) {
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {
     for (std::size_t i = next++; i < count; i = next++) body(i);
   };
   std::vector<std::thread> workers;
-  for (unsigned i = 1; i < (threads == 0 ? 4 : threads); ++i) workers.emplace_back(work);
+  for (unsigned i = 1; i < used_threads(threads); ++i) workers.emplace_back(work);
   work();
   for (std::thread& worker : workers) worker.join();
 }
 
 #else
+
+// More threads than cores gain nothing, and make oneTBB print a warning.
+unsigned used_threads(unsigned threads) {
+  const auto cores = static_cast<unsigned>(tbb::info::default_concurrency());
+  return threads == 0 ? cores : std::min(threads, cores);
+}
 
 void run_on_threads(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& body) {
   const auto loop = [&] {
@@ -90,9 +99,7 @@ void run_on_threads(std::size_t count, unsigned threads, const std::function<voi
       tbb::this_task_arena::isolate([&] { body(i); });
     });
   };
-  // More threads than cores gain nothing, and make oneTBB print a warning.
-  const int cores = tbb::info::default_concurrency();
-  const int used = threads == 0 || threads > static_cast<unsigned>(cores) ? cores : static_cast<int>(threads);
+  const auto used = static_cast<int>(used_threads(threads));
   try {
     // To make an arena takes a tenth of a millisecond, as long as many a loop. A loop inside of another one has one
     // already, and so has one on all cores.
@@ -113,6 +120,11 @@ void run_on_threads(std::size_t count, unsigned threads, const std::function<voi
 #endif
 
 }  // namespace
+
+std::size_t size_of_ranges(std::size_t count, const Monitor& monitor) {
+  const std::size_t threads = monitor.threads() == 1 ? 1 : used_threads(monitor.threads());
+  return std::max<std::size_t>((count + threads - 1) / threads, 1);
+}
 
 void parallel_for(std::size_t count, const Monitor& monitor,
                   const std::function<void(std::size_t, const Monitor&)>& body) {

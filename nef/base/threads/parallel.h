@@ -25,6 +25,10 @@ void parallel_for(std::size_t count, const Monitor& monitor,
 void parallel_for_ranges(std::size_t count, std::size_t size, const Monitor& monitor,
                          const std::function<void(std::size_t, std::size_t, const Monitor& own)>& body);
 
+/// The size of ranges of which each thread that `monitor` has gets one; at least 1. For work whose result does not
+/// depend on it.
+[[nodiscard]] std::size_t size_of_ranges(std::size_t count, const Monitor& monitor);
+
 /// make(0) .. make(count - 1), each a small piece of work that neither waits nor throws; on one thread without writing
 /// memory twice.
 template <typename Make>
@@ -39,6 +43,22 @@ template <typename Make>
   result.resize(count);
   parallel_for_ranges(count, kTogether, monitor, [&](std::size_t first, std::size_t last, const Monitor&) {
     for (std::size_t i = first; i < last; ++i) result[i] = make(i);
+  });
+  return result;
+}
+
+/// make(first, last, own) of ranges that cover 0 .. count - 1, in their order: of ranges of `size` indices, but on one
+/// thread of a single one, whose result may be taken as it is. At least one.
+template <typename Make>
+[[nodiscard]] auto blocks_of(std::size_t count, std::size_t size, const Monitor& monitor, const Make& make) {
+  std::vector<decltype(make(count, count, monitor))> result;
+  if (monitor.threads() == 1 || count <= size) {
+    result.push_back(make(0, count, monitor));
+    return result;
+  }
+  result.resize((count + size - 1) / size);
+  parallel_for_ranges(count, size, monitor, [&](std::size_t first, std::size_t last, const Monitor& own) {
+    result[first / size] = make(first, last, own);
   });
   return result;
 }

@@ -5,7 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <utility>
 
 #include "nef/base/threads/parallel.h"
 
@@ -31,28 +31,47 @@ bool comes_before(const SpatialKey& a, const SpatialKey& b) {
   return a.cell != b.cell ? a.cell < b.cell : a.index < b.index;
 }
 
+constexpr unsigned kDigit = 11;
+constexpr std::size_t kPlaces = std::size_t{1} << kDigit;
+
+// One turn of a radix sort: `from` in the order of the digit from bit `shift` on, equal ones as they come. Each thread
+// counts the digits of its part and then writes to places of its own. False if all have one digit; then nothing is
+// written.
+bool sort_by_digit(std::span<const SpatialKey> from, std::span<SpatialKey> to, unsigned shift, const Monitor& monitor) {
+  using Places = std::array<std::uint32_t, kPlaces>;
+  const auto digit = [shift](const SpatialKey& key) { return key.cell >> shift & (kPlaces - 1); };
+  const std::size_t size = size_of_ranges(from.size(), monitor);
+  std::vector<Places> places((from.size() + size - 1) / size, Places{});
+  parallel_for_ranges(from.size(), size, monitor, [&](std::size_t first, std::size_t last, const Monitor&) {
+    for (const SpatialKey& key : from.subspan(first, last - first)) ++places[first / size][digit(key)];
+  });
+  std::uint32_t next = 0;
+  for (std::size_t d = 0; d < kPlaces; ++d) {
+    const std::uint32_t before = next;
+    for (Places& of_part : places) next += std::exchange(of_part[d], next);
+    if (next - before == from.size()) return false;
+  }
+  parallel_for_ranges(from.size(), size, monitor, [&](std::size_t first, std::size_t last, const Monitor&) {
+    Places place = places[first / size];
+    for (const SpatialKey& key : from.subspan(first, last - first)) to[place[digit(key)]++] = key;
+  });
+  return true;
+}
+
 // By cell, then by index. The upper bits in turns of so many that a table of as many places as they tell apart stays in
 // the fastest cache; they part all but a few keys, which then are compared.
-void sort_by_cell(std::vector<SpatialKey>& keys) {
+void sort_by_cell(std::vector<SpatialKey>& keys, const Monitor& monitor) {
   constexpr std::size_t kFew = 2000;  // sorted faster by comparing
   if (keys.size() < kFew) {
     std::sort(keys.begin(), keys.end(), comes_before);
     return;
   }
-  constexpr unsigned kDigit = 11;
   constexpr unsigned kTop = 64;
-  constexpr std::size_t kPlaces = std::size_t{1} << kDigit;
   const unsigned turns = std::bit_width(keys.size()) < 20 ? 3 : 4;
   const unsigned lowest = kTop - turns * kDigit;
   std::vector<SpatialKey> sorted(keys.size());
   for (unsigned shift = lowest; shift < kTop; shift += kDigit) {
-    const auto digit = [shift](const SpatialKey& key) { return key.cell >> shift & (kPlaces - 1); };
-    std::array<std::uint32_t, kPlaces> place{};
-    for (const SpatialKey& key : keys) ++place[digit(key)];
-    if (place[digit(keys[0])] == keys.size()) continue;
-    std::exclusive_scan(place.begin(), place.end(), place.begin(), 0U);
-    for (const SpatialKey& key : keys) sorted[place[digit(key)]++] = key;
-    keys.swap(sorted);
+    if (sort_by_digit(keys, sorted, shift, monitor)) keys.swap(sorted);
   }
   for (auto begin = keys.begin(); begin != keys.end();) {
     auto end = begin + 1;
@@ -60,13 +79,6 @@ void sort_by_cell(std::vector<SpatialKey>& keys) {
     if (end - begin > 1) std::sort(begin, end, comes_before);
     begin = end;
   }
-}
-
-std::vector<std::uint32_t> indices_of(const std::vector<SpatialKey>& keys) {
-  std::vector<std::uint32_t> order;
-  order.reserve(keys.size());
-  for (const SpatialKey& key : keys) order.push_back(key.index);
-  return order;
 }
 
 }  // namespace
@@ -93,13 +105,10 @@ std::vector<SpatialKey> spatial_keys(std::span<const std::array<double, 3>> poin
     }
     return {cell, static_cast<std::uint32_t>(v)};
   };
-  std::vector<SpatialKey> keys = vector_of(points.size(), for_vertices(points.size(), monitor), key);
-  sort_by_cell(keys);
+  const Monitor own = for_vertices(points.size(), monitor);
+  std::vector<SpatialKey> keys = vector_of(points.size(), own, key);
+  sort_by_cell(keys, own);
   return keys;
-}
-
-std::vector<std::uint32_t> spatial_order(std::span<const std::array<double, 3>> points, const Monitor& monitor) {
-  return indices_of(spatial_keys(points, monitor));
 }
 
 std::vector<std::uint32_t> spatial_order(std::span<const std::array<double, 3>> points,
@@ -113,7 +122,10 @@ std::vector<std::uint32_t> spatial_order(std::span<const std::array<double, 3>> 
     }
     begin = end;
   }
-  return indices_of(keys);
+  std::vector<std::uint32_t> order;
+  order.reserve(keys.size());
+  for (const SpatialKey& key : keys) order.push_back(key.index);
+  return order;
 }
 
 }  // namespace nef

@@ -19,13 +19,11 @@ struct SpatialKey {
   std::uint32_t index;
 };
 
-/// The keys of all points, ascending by cell, then by index. O(n), on the threads of `monitor` but for the sorting.
+/// The keys of all points, ascending by cell, then by index. O(n), on the threads of `monitor`.
 std::vector<SpatialKey> spatial_keys(std::span<const std::array<double, 3>> points, const Monitor& monitor = {});
 
-/// The indices of points in the order of their keys, so that arrays in this order are read along memory. O(n).
-std::vector<std::uint32_t> spatial_order(std::span<const std::array<double, 3>> points, const Monitor& monitor = {});
-
-/// The same with points of one cell sorted by `less`, which takes two indices.
+/// The indices of points in the order of their keys, those of one cell sorted by `less`, which takes two indices. O(n)
+/// where cells hold few.
 std::vector<std::uint32_t> spatial_order(std::span<const std::array<double, 3>> points,
                                          const std::function<bool(std::uint32_t, std::uint32_t)>& less);
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "nef/base/monitor.h"
+#include "nef/geometry/search/spatial_order.h"
 #include "nef/mesh/mesh.h"
 #include "nef/mesh/mesh_points.h"
 
@@ -18,24 +19,35 @@ namespace nef {
 /// Why a face has no triangles.
 enum class FaceDefect : std::uint8_t { kNone, kBadIndex, kTooFewCorners, kNoArea, kCrossesItself };
 
-/// The triangulated surface of a mesh. A face may come to a vertex twice, as one with a hole that is joined to the
-/// outer ring by a bridge does; sides that are walked out and back at once do not count.
-struct MeshSurface {
-  MeshSurface(const Mesh& mesh, const Monitor& monitor);
-  /// The same with the vertices at `at`: those of the mesh are only counted.
-  MeshSurface(const Mesh& mesh, MeshPoints at, const Monitor& monitor);
-
-  MeshPoints points;                                    ///< of all vertices of the mesh
-  std::vector<std::uint32_t> place;                     ///< of each vertex: the smallest vertex at the same point
+/// The faces of a mesh, cut into triangles.
+struct CutFaces {
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of places; none is degenerate
   std::vector<std::uint32_t> face_of;                   ///< of each triangle
-  std::vector<std::uint32_t> triangle_begin;            ///< of each face, and the end
+  std::vector<std::uint32_t> triangle_begin{0};         ///< of each face, and the end
   std::vector<std::uint32_t> pieces;                    ///< of each triangle: equal where a convex face was cut
   std::vector<FaceDefect> defects;                      ///< of each face
   std::vector<bool> planar;                             ///< of each face: all corners lie in one plane, or on a line
   std::vector<bool> irregular;                          ///< of each face: it names a vertex twice
   std::vector<std::uint32_t> rings;  ///< corners of the planar faces that were cut, as places; none of irregular ones
-  std::vector<std::uint32_t> ring_begin;  ///< of each face in `rings`, and the end
+  std::vector<std::uint32_t> ring_begin{0};  ///< of each face in `rings`, and the end
+
+  /// Makes room for so many of each.
+  void reserve(std::size_t faces, std::size_t of_triangles, std::size_t ring_corners);
+  /// Appends the faces that come next. O(their size).
+  void append(const CutFaces& next);
+};
+
+/// The triangulated surface of a mesh. A face may come to a vertex twice, as one with a hole that is joined to the
+/// outer ring by a bridge does; sides that are walked out and back at once do not count.
+struct MeshSurface : CutFaces {
+  /// O(n log n), on the threads of `monitor`.
+  MeshSurface(const Mesh& mesh, const Monitor& monitor);
+  /// The same with the vertices at `at`, where equal ones have equal doubles: those of the mesh are only counted.
+  MeshSurface(const Mesh& mesh, MeshPoints at, const Monitor& monitor);
+
+  MeshPoints points;                 ///< of all vertices of the mesh
+  std::vector<SpatialKey> curve;     ///< all vertices along a space-filling curve (spatial_keys)
+  std::vector<std::uint32_t> place;  ///< of each vertex: the smallest vertex at the same point
 
   /// The corners of a triangle as its face names them, instead of the smallest vertices at their points.
   [[nodiscard]] std::array<std::uint32_t, 3> corners_in_face(const Mesh& mesh, std::uint32_t triangle) const {

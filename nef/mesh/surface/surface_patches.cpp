@@ -10,6 +10,7 @@
 #include <atomic>
 
 #include "nef/base/fast_path.h"
+#include "nef/base/threads/group_by.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/geometry/search/direction_tree.h"
 #include "nef/mesh/surface/coplanar_groups.h"
@@ -107,17 +108,18 @@ void SurfacePatches::add_cycles(Layout& layout, std::span<const std::uint32_t> c
 }
 
 void SurfacePatches::index_corners(Layout& layout) const {
-  layout.corner_begin.assign(surface_.points.size() + 1, 0);
-  for (const std::uint32_t place : layout.corners) ++layout.corner_begin[place + 1];
-  for (std::size_t v = 1; v < layout.corner_begin.size(); ++v) layout.corner_begin[v] += layout.corner_begin[v - 1];
   layout.at.resize(layout.corners.size());
-  std::vector<std::uint32_t> at(layout.corner_begin.begin(), layout.corner_begin.end() - 1);
-  for (std::uint32_t p = 0; p < layout.patches.size(); ++p) {
-    const Patch& patch = layout.patches[p];
-    for (std::uint32_t i = patch.corner_begin; i < patch.corner_end; ++i) {
-      layout.at[at[layout.corners[i]]++] = {p, i - patch.corner_begin};
+  const auto each_corner = [&](const auto& visit) {
+    for (std::uint32_t p = 0; p < layout.patches.size(); ++p) {
+      const Patch& patch = layout.patches[p];
+      for (std::uint32_t i = patch.corner_begin; i < patch.corner_end; ++i) {
+        visit(layout.corners[i], Corner{p, i - patch.corner_begin});
+      }
     }
-  }
+  };
+  const auto put = [&](std::uint32_t place, const Corner& corner) { layout.at[place] = corner; };
+  layout.corner_begin =
+      group_by(surface_.points.size(), each_corner, put, for_vertices(layout.corners.size(), monitor_));
 }
 
 std::span<const std::uint32_t> SurfacePatches::corners(const Layout& layout, const Patch& patch) const {

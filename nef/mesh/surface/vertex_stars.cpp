@@ -3,32 +3,38 @@
 
 #include <algorithm>
 
+#include "nef/base/threads/group_by.h"
 #include "nef/base/threads/parallel.h"
 
 namespace nef {
 
 VertexStars::VertexStars(const MeshPoints& points, std::span<const Triangle> triangles, const Monitor& monitor)
-    : points_(points),
-      begin_(points.size() + 1, 0),
-      wedges_(3 * triangles.size()),
-      across_(3 * triangles.size(), kNone),
-      flat_(points.size(), 0) {
-  sort_by_vertex(triangles);
+    : points_(points), wedges_(3 * triangles.size()), across_(3 * triangles.size(), kNone), flat_(points.size(), 0) {
   constexpr std::size_t kBlock = 4096;
   const Monitor own = for_vertices(triangles.size(), monitor);
+  const auto each_corner = [&](const auto& visit) {
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+      for (std::uint32_t k = 0; k < 3; ++k) visit(triangles[i][k], i, k);
+    }
+  };
+  const auto put = [&](std::uint32_t place, std::uint32_t i, std::uint32_t k) {
+    wedges_[place] = {i, k, triangles[i][(k + 1) % 3], triangles[i][(k + 2) % 3]};
+  };
+  begin_ = group_by(points.size(), each_corner, put, own);
   views_ = vector_of(triangles.size(), own, [&](std::size_t i) { return views_of(triangles[i]); });
-  std::vector<std::vector<std::uint32_t>> open((flat_.size() + kBlock - 1) / kBlock);
-  parallel_for_ranges(flat_.size(), kBlock, own, [&](std::size_t first, std::size_t last, const Monitor&) {
+  const auto close_all = [&](std::size_t first, std::size_t last, const Monitor&) {
+    std::vector<std::uint32_t> open;
     for (auto v = static_cast<std::uint32_t>(first); v < last; ++v) {
       if (!close(star(v))) {
-        open[first / kBlock].push_back(v);
+        open.push_back(v);
       } else if (is_flat(v, star(v))) {
         flat_[v] = 1;
       }
     }
-  });
+    return open;
+  };
   // The sides that leave such a vertex and those that arrive there.
-  for (const std::vector<std::uint32_t>& of_block : open) {
+  for (const std::vector<std::uint32_t>& of_block : blocks_of(flat_.size(), kBlock, own, close_all)) {
     all_closed_ = all_closed_ && of_block.empty();
     for (const std::uint32_t v : of_block) {
       for (const Wedge& wedge : star(v)) {
@@ -36,18 +42,6 @@ VertexStars::VertexStars(const MeshPoints& points, std::span<const Triangle> tri
         across_[3 * wedge.triangle + (wedge.corner == 0 ? 2 : wedge.corner - 1)] = kNone;
       }
     }
-  }
-}
-
-void VertexStars::sort_by_vertex(std::span<const Triangle> triangles) {
-  for (const Triangle& t : triangles) {
-    for (const std::uint32_t v : t) ++begin_[v + 1];
-  }
-  for (std::size_t v = 1; v < begin_.size(); ++v) begin_[v] += begin_[v - 1];
-  std::vector<std::uint32_t> at(begin_.begin(), begin_.end() - 1);
-  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-    const Triangle& t = triangles[i];
-    for (std::uint32_t k = 0; k < 3; ++k) wedges_[at[t[k]]++] = {i, k, t[(k + 1) % 3], t[(k + 2) % 3]};
   }
 }
 

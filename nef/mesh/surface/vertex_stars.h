@@ -69,7 +69,6 @@ class VertexStars {
   }
 
  private:
-  void sort_by_vertex(std::span<const Triangle> triangles);
   [[nodiscard]] std::uint8_t views_of(const Triangle& t) const;
   bool close(std::span<const Wedge> star);
   bool close_wide(std::span<const Wedge> star);

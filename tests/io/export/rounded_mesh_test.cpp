@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <random>
 
 #include "nef/export/to_mesh.h"
 #include "nef/geometry/search/spatial_order.h"
@@ -35,13 +36,23 @@ TEST_CASE("A rounded mesh is the exact one with every coordinate rounded once") 
   }
 }
 
+namespace {
+
+std::vector<std::uint32_t> along_curve(const std::vector<std::array<double, 3>>& points, unsigned threads = 1) {
+  std::vector<std::uint32_t> order;
+  for (const SpatialKey& key : spatial_keys(points, Monitor().on_threads(threads))) order.push_back(key.index);
+  return order;
+}
+
+}  // namespace
+
 TEST_CASE("The spatial order is a permutation in which octants stay together") {
   std::vector<std::array<double, 3>> points;
   for (unsigned i = 0; i < 512; ++i) {
     const unsigned k = i * 293 % 512;
     points.push_back({static_cast<double>(k & 7U), static_cast<double>(k >> 3U & 7U), static_cast<double>(k >> 6U)});
   }
-  const std::vector<std::uint32_t> order = spatial_order(points);
+  const std::vector<std::uint32_t> order = along_curve(points);
   std::vector<bool> seen(points.size(), false);
   for (const std::uint32_t v : order) seen[v] = true;
   CHECK(std::count(seen.begin(), seen.end(), true) == 512);
@@ -51,11 +62,22 @@ TEST_CASE("The spatial order is a permutation in which octants stay together") {
       CHECK((p[0] >= 4 ? 1U : 0U) + (p[1] >= 4 ? 2U : 0U) + (p[2] >= 4 ? 4U : 0U) == block);
     }
   }
-  CHECK(spatial_order({}).empty());
+  CHECK(along_curve({}).empty());
   const std::vector<std::array<double, 3>> same(5, {1, 2, 3});
-  CHECK(spatial_order(same) == std::vector<std::uint32_t>{0, 1, 2, 3, 4});
+  CHECK(along_curve(same) == std::vector<std::uint32_t>{0, 1, 2, 3, 4});
   const std::vector<std::array<double, 3>> far{{HUGE_VAL, 0, 0}, {1e300, -1e300, 0}, {-1e300, 0, 0}};
-  CHECK(spatial_order(far).back() == 0);
+  CHECK(along_curve(far).back() == 0);
+}
+
+TEST_CASE("Points are sorted along the curve alike on any number of threads") {
+  std::mt19937 random(5);
+  std::vector<std::array<double, 3>> points(20000);  // many of them several times
+  for (auto& point : points) {
+    for (double& x : point) x = static_cast<double>(random() % 16);
+  }
+  points[7] = {HUGE_VAL, 0, 0};
+  const std::vector<std::uint32_t> order = along_curve(points);
+  for (const unsigned threads : {2U, 3U, 8U, 0U}) CHECK(along_curve(points, threads) == order);
 }
 
 }  // namespace nef::test

@@ -156,7 +156,7 @@ std::vector<std::uint32_t> hashes_of(const PlaneRows& rows, const Monitor& monit
 
 // The rows whose hash another one has, too, and few others: those whose hash sets a bit that was set before.
 std::vector<std::uint32_t> rows_of_common_hash(std::span<const std::uint32_t> hashes) {
-  constexpr std::size_t kBits = 8;  // of a row: few enough for a cache, many enough to take few for another one's
+  constexpr std::size_t kBits = 8;  // for each row: few enough for a cache, and few rows share one
   const std::size_t count = std::bit_ceil(std::max<std::size_t>(kBits * hashes.size(), 64));
   struct Bits {
     std::uint64_t once = 0;

@@ -63,8 +63,8 @@ std::vector<std::uint32_t> merge_equal(std::span<const Rational3> points) {
 std::vector<std::uint32_t> merge_equal(std::span<const std::array<double, 3>> points) {
   const auto hash = [points](std::size_t i) {
     std::uint64_t result = 0;
-    for (const double x : points[i])
-      result = mixed_bits(result ^ std::bit_cast<std::uint64_t>(x + 0.0));  // -0 equals 0
+    // -0 equals 0.
+    for (const double x : points[i]) result = mixed_bits(result ^ std::bit_cast<std::uint64_t>(x + 0.0));
     return result;
   };
   return first_equal(points.size(), Monitor(), hash,

@@ -67,11 +67,11 @@ class FirstFailure {
 
 #ifdef NEF_THREAD_SANITIZER
 
+unsigned used_threads(unsigned threads) { return threads == 0 ? 4 : threads; }
+
 /// oneTBB comes without instrumentation, so ThreadSanitizer does not see how it hands work from thread to thread, and
 /// what it reports inside its tasks cannot be told from our own races. Under the sanitizer plain threads take its
 /// place.
-unsigned used_threads(unsigned threads) { return threads == 0 ? 4 : threads; }
-
 void run_on_threads(std::size_t count, unsigned threads, const std::function<void(std::size_t)>& body) {
   std::atomic<std::size_t> next = 0;
   const auto work = [&] {

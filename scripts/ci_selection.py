@@ -104,17 +104,22 @@ class Choice:
         return self.due <= done
 
 
-def look_at(items: dict[str, list[str]], first: set[str], seconds: float, look: Callable[[str], bool]) -> bool:
-    """Looks at items in the order of a Choice, on all cores, and begins none when so many seconds are over. `look(item)` tells
-    whether it came to an end. Returns whether nothing was left out that was due. Quarters have equally many items."""
-    numbers = {min(items[item]): number for number, item in enumerate(sorted(items))}
-    choice = Choice(items, first, numbers.__getitem__)
+def look_at(items: dict[str, list[str]], first: set[str], seconds: float, look: Callable[[str, bool], bool],
+            at_once: int | None = None, quarters: dict[str, int] | None = None) -> bool:
+    """Looks at items in the order of a Choice, so many at once (None: as there are cores). When so many seconds are over, it
+    begins only those that are due; whoever calls sees to the end of all. `look(item, is_due)` tells whether it came to an
+    end. Returns whether nothing was left out that was due. `quarters` tells in which quarter each item is; without it, these
+    have equally many."""
+    given = quarters or {item: number for number, item in enumerate(sorted(items))}
+    quarter_of = {min(items[item]): quarter for item, quarter in given.items()}
+    choice = Choice(items, first, quarter_of.__getitem__)
     end = time.monotonic() + seconds
 
     def begin(item: str) -> bool:
-        return time.monotonic() < end and look(item)
+        is_due = item in choice.due
+        return (is_due or time.monotonic() < end) and look(item, is_due)
 
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+    with concurrent.futures.ThreadPoolExecutor(at_once or os.cpu_count()) as pool:
         return choice.end({item for item, ended in zip(choice.order, pool.map(begin, choice.order)) if ended})
 
 

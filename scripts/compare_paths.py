@@ -5,8 +5,9 @@ all files that they write, each on 1, 2 and 4 threads, over the data of the repo
 every difference, and every crash or refusal of legal input; exits 1 if there is one. What is generated depends on the
 seed alone.
 
-Usage: scripts/compare_paths.py FAST SLOW [--seed N] [--only WORD] [--keep FOLDER] [--times]
-       FAST and SLOW are folders of programs, as build/ci/bin and build/slow/bin
+Usage: scripts/compare_paths.py FAST SLOW [--seed N] [--program NAME] [--only WORD] [--keep FOLDER] [--times]
+       FAST and SLOW are folders of programs, as build/ci/bin and build/slow/bin; with a program's NAME, only cases that
+       are about it (`nef` helps in those of others)
 """
 import argparse
 import collections
@@ -72,11 +73,19 @@ def compare(
     return differences, " ".join(f"{build} {seconds:.1f} s" for build, seconds in took.items()), first
 
 
+def program_of(case: paths_corpus.Case) -> str:
+    """The program that a case is about."""
+    others = {command[0] for command in case.commands} - {"nef"}
+    assert len(others) < 2, f"{case.name} is about {sorted(others)}"
+    return others.pop() if others else "nef"
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("fast", type=pathlib.Path)
     parser.add_argument("slow", type=pathlib.Path)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--program", help="only cases about this program")
     parser.add_argument("--only", default="", help="cases with this in their names")
     parser.add_argument("--keep", type=pathlib.Path, help="an empty folder for what is made, which then stays")
     parser.add_argument("--times", action="store_true", help="print how long each case took")
@@ -86,7 +95,7 @@ def main() -> int:
     work.mkdir(parents=True, exist_ok=True)
     try:
         cases = paths_corpus.cases(DATA, work / "input", options.seed)
-        cases = [case for case in cases if options.only in case.name]
+        cases = [case for case in cases if options.only in case.name and options.program in (None, program_of(case))]
         differences = []
         codes: collections.Counter[str] = collections.Counter()
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

@@ -112,7 +112,8 @@ def main() -> int:
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
             list(pool.map(check, largest_first))
     else:
-        complete = ci_selection.look_at(chosen, concerned(chosen, ci_selection.changed()), arguments.seconds, check)
+        complete = ci_selection.look_at(chosen, concerned(chosen, ci_selection.changed()), arguments.seconds,
+                                        lambda unit, _: check(unit))
     print(f"clang-tidy: {len(chosen)} units, {len(places)} findings")
     return 0 if complete and not places and not broken else 1
 

@@ -3,14 +3,16 @@
 """Builds test programs with sanitizers and runs their cases, each in a process of its own; prints what fails.
 
 Items are programs, and parts of those that take long. They come one after the other, those first that runs have left out,
-then those of the core and of what changed, then the others (see ci_selection.py). No case is begun, and no program built,
-after so many seconds. Exits 1 if a case fails, or if an item was left out that was due.
+then those of the core and of what changed, then the others (see ci_selection.py). After so many seconds no case is begun but
+of items that are due. Exits 1 if a case fails, or if an item was left out that was due.
 
-Usage: sanitized_tests.py BUILD --seconds N     for instance build/sanitize, which is configured
+Usage: sanitized_tests.py BUILD --seconds N [--tags TAGS]     BUILD is configured, for instance build/sanitize; with TAGS, as
+                                                              "[threads],[parallel]", only cases with one of them
 """
 import argparse
 import concurrent.futures
 import os
+import pathlib
 import re
 import subprocess
 import sys
@@ -21,16 +23,20 @@ import zlib
 import ci_selection
 
 LIMIT = 900  # seconds; a case that takes longer has failed
-PARTS = ci_selection.QUARTERS
-LONG = {"test_planner", "test_visual_hull"}  # in parts, one in each quarter
-# The other programs, so that quarters take about equally long.
-QUARTERS = [{"test_nef_mpi", "test_command", "test_query", "test_laws"}, {"test_minkowski"}, {"test_core"},
-            {"test_tiles", "test_io", "test_view", "test_remeshing"}]
+# In which quarters a program has parts. Two that take long to build have none in common; all quarters take about equally long.
+QUARTERS = {
+    "test_planner": [0, 2], "test_visual_hull": [1, 3],
+    "test_core": [0], "test_query": [0],
+    "test_minkowski": [1],
+    "test_tiles": [2], "test_view": [2], "test_remeshing": [2], "test_studio": [2],
+    "test_io": [3], "test_laws": [3], "test_command": [3], "test_nef_mpi": [3],
+}
 
 
-def cases(program: str) -> list[str]:
+def cases(program: str, tags: str) -> list[str]:
     """The names of the test cases of a program."""
-    listed = subprocess.run([program, "--list-test-names-only"], capture_output=True, text=True, check=False).stdout
+    listed = subprocess.run([program, "--list-test-names-only", *([tags] if tags else [])], capture_output=True, text=True,
+                            check=False).stdout
     return [name for name in listed.splitlines() if name]
 
 
@@ -51,55 +57,55 @@ def run(program: str, case: str) -> subprocess.CompletedProcess:
     return subprocess.run(command, capture_output=True, text=True, errors="replace", env=environment, check=False)
 
 
-def items(program: str) -> list[str]:
-    return [f"{program} {part + 1}/{PARTS}" for part in range(PARTS)] if program in LONG else [program]
+def quarters_of(program: str, tags: str) -> list[int]:
+    """In which quarter each of its items is. Cases with tags are one item."""
+    known = QUARTERS.get(program, [0])
+    return known[-1:] if tags else known
 
 
-def program_of(item: str) -> str:
-    return item.split()[0]
+def items(program: str, tags: str) -> list[str]:
+    """Their names."""
+    count = len(quarters_of(program, tags))
+    if tags:
+        return [f"{program} {tags}"]
+    return [program] if count == 1 else [f"{program} {part + 1}/{count}" for part in range(count)]
 
 
-def quarter(item: str) -> int:
-    """In which quarter of the items one is."""
-    program = program_of(item)
-    if program in LONG:
-        return items(program).index(item)
-    return next((i for i, group in enumerate(QUARTERS) if program in group), 0)
+def has_tags(program: str, tags: str) -> bool:
+    """Whether a source of the program has a case with one of the tags."""
+    words = tags.split(",")
+    sources = pathlib.Path("tests", program.removeprefix("test_")).rglob("*.cpp")
+    return not tags or any(word in source.read_text(encoding="utf-8") for source in sources for word in words)
 
 
-def cases_of(item: str, build: str) -> list[str]:
-    program = program_of(item)
-    listed = cases(f"{build}/bin/{program}")
-    if program not in LONG:
-        return listed
-    return [case for case in listed if zlib.crc32(case.encode()) % PARTS == quarter(item)]
-
-
-def names(build: str) -> list[str]:
+def names(build: str, tags: str) -> list[str]:
     """The test programs that can be built, but for the comparison with CGAL, which takes long to compile and is not ours."""
     targets = subprocess.run(["cmake", "--build", build, "--target", "help"], capture_output=True, text=True, check=True).stdout
-    return sorted(set(re.findall(r"^(test_[a-z_]+)", targets, re.MULTILINE)) - {"test_main", "test_oracle"})
+    found = set(re.findall(r"^(test_[a-z_]+)", targets, re.MULTILINE)) - {"test_main", "test_oracle"}
+    return sorted(program for program in found if has_tags(program, tags))
 
 
 def main() -> int:
     parser = argparse.ArgumentParser()
     parser.add_argument("build")
     parser.add_argument("--seconds", type=float, required=True)
+    parser.add_argument("--tags", default="")
     arguments = parser.parse_args()
-    end = time.monotonic() + arguments.seconds
-    programs = names(arguments.build)
+    tags = arguments.tags
+    programs = names(arguments.build, tags)
     files = ci_selection.changed()
-    concerned = {program for program in programs
+    program_of = {item: program for program in programs for item in items(program, tags)}
+    concerned = {item for item, program in program_of.items()
                  if "nef/" in folders(program) or any(file.startswith(folders(program)) for file in files)}
-    every = [item for program in programs for item in items(program)]
-    choice = ci_selection.Choice({item: [item] for item in every}, {item for item in every if program_of(item) in concerned},
-                                 quarter)
+    quarters = {item: quarter for program in programs
+                for item, quarter in zip(items(program, tags), quarters_of(program, tags))}
     failed = []
     printing = threading.Lock()
+    end = time.monotonic() + arguments.seconds
 
-    def look(program: str, case: str) -> bool:
+    def look_at_case(program: str, case: str, is_due: bool) -> bool:
         begin = time.monotonic()
-        if begin > end:
+        if begin > end and not is_due:
             return False
         result = run(f"{arguments.build}/bin/{program}", case)
         with printing:
@@ -111,26 +117,27 @@ def main() -> int:
                       flush=True)
         return True
 
-    done = set()
-    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
-        for item in choice.order:
-            program = program_of(item)
-            begin = time.monotonic()
-            if begin > end:
-                break
-            built = subprocess.run(["cmake", "--build", arguments.build, "--target", program], capture_output=True, text=True,
-                                   errors="replace", check=False)
-            if built.returncode != 0:
-                print(built.stdout[-4000:])
-                return 1
-            middle = time.monotonic()
-            chosen = cases_of(item, arguments.build)
-            looked = list(pool.map(look, [program] * len(chosen), chosen))
-            print(f"-- {item}: {middle - begin:.0f} s to build, {time.monotonic() - middle:.0f} s for {sum(looked)} of "
-                  f"{len(looked)} cases", flush=True)
-            if looked and all(looked):
-                done.add(item)
-    complete = choice.end(done)
+    def look(item: str, is_due: bool) -> bool:
+        program = program_of[item]
+        begin = time.monotonic()
+        built = subprocess.run(["cmake", "--build", arguments.build, "--target", program], capture_output=True, text=True,
+                               errors="replace", check=False)
+        if built.returncode != 0:
+            print(built.stdout[-4000:], flush=True)
+            failed.append(f"{program} was not built")
+            return False
+        middle = time.monotonic()
+        of_program = items(program, tags)
+        chosen = [case for case in cases(f"{arguments.build}/bin/{program}", tags)
+                  if zlib.crc32(case.encode()) % len(of_program) == of_program.index(item)]
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            looked = list(pool.map(lambda case: look_at_case(program, case, is_due), chosen))
+        print(f"-- {item}: {middle - begin:.0f} s to build, {time.monotonic() - middle:.0f} s for {sum(looked)} of "
+              f"{len(looked)} cases", flush=True)
+        return bool(looked) and all(looked)
+
+    complete = ci_selection.look_at({item: [item] for item in program_of}, concerned, arguments.seconds, look, at_once=1,
+                                    quarters=quarters)
     print(f"{len(failed)} cases failed")
     return 0 if complete and not failed else 1
 

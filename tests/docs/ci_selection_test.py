@@ -22,12 +22,12 @@ class Selection(unittest.TestCase):
         ci_selection.git = lambda *arguments: str(self.commits)
 
     def look(self, items: dict[str, list[str]], first: set[str], most: int) -> tuple[list[str], bool]:
-        """What is looked at, one after the other, when there is time for so many items."""
+        """What is looked at, one after the other, when there is time for so many items that are not due."""
         looked: list[str] = []
         clock = iter([0.0] * (most + 1) + [1.0] * len(items))
         with mock.patch("time.monotonic", lambda: next(clock)), mock.patch("os.cpu_count", lambda: 1), \
                 contextlib.redirect_stdout(io.StringIO()):
-            complete = ci_selection.look_at(items, first, 0.5, lambda item: not looked.append(item))
+            complete = ci_selection.look_at(items, first, 0.5, lambda item, _: not looked.append(item))
         return looked, complete
 
     def test_nothing_is_left_out_four_times_in_a_row_by_runs_that_pass(self) -> None:
@@ -59,19 +59,30 @@ class Selection(unittest.TestCase):
     def test_what_changed_comes_before_the_rest_and_after_what_is_due(self) -> None:
         items = {"a": ["a"], "b": ["b"], "c": ["c"]}
         ci_selection.record({"a": 3, "b": 0, "c": 2})
-        self.assertEqual(self.look(items, {"b"}, 2), (["a", "b"], True))
+        self.assertEqual(self.look(items, {"b"}, 1), (["a", "b"], True))
         self.assertEqual(ci_selection.recorded(), {"a": 0, "b": 0, "c": 3})
-        self.assertEqual(self.look(items, {"b"}, 1), (["c"], True))
+        self.assertEqual(self.look(items, {"b"}, 0), (["c"], True))
 
-    def test_a_run_that_does_not_reach_what_is_due_fails(self) -> None:
-        ci_selection.record({"a": 3, "b": 4})
-        self.assertEqual(self.look({"a": ["a"], "b": ["b"]}, set(), 1), (["b"], False))
-        self.assertEqual(ci_selection.recorded(), {"a": 4, "b": 0})
+    def test_what_is_due_is_begun_when_there_is_no_time_for_others(self) -> None:
+        ci_selection.record({"a": 3, "b": 4, "c": 0})
+        self.assertEqual(self.look({"a": ["a"], "b": ["b"], "c": ["c"]}, set(), 0), (["b", "a"], True))
+        self.assertEqual(ci_selection.recorded(), {"a": 0, "b": 0, "c": 1})
+
+    def test_items_are_in_the_quarters_that_are_given(self) -> None:
+        items = {"a": ["a"], "b": ["b"], "c": ["c"]}
+        for self.commits in range(8):
+            if os.path.exists(ci_selection.UNSEEN):
+                os.remove(ci_selection.UNSEEN)
+            due = []
+            with contextlib.redirect_stdout(io.StringIO()):
+                ci_selection.look_at(items, set(), 100, lambda item, is_due: due.append(item) or True if is_due else True,
+                                     at_once=1, quarters={"a": 0, "b": 1, "c": 1})
+            self.assertEqual(sorted(due), {0: [], 1: ["a"], 2: ["b", "c"], 3: []}[self.commits % 4])
 
     def test_what_does_not_come_to_its_end_was_not_looked_at(self) -> None:
         ci_selection.record({"a": 3})
         with contextlib.redirect_stdout(io.StringIO()):
-            self.assertFalse(ci_selection.look_at({"a": ["a"]}, set(), 100, lambda item: False))
+            self.assertFalse(ci_selection.look_at({"a": ["a"]}, set(), 100, lambda item, _: False))
         self.assertEqual(ci_selection.recorded(), {"a": 4})
 
     def test_a_unit_is_as_old_as_its_oldest_part(self) -> None:

@@ -317,7 +317,7 @@ TEST_CASE("a search for a proof goes on where its limits have stopped it") {
   CHECK_FALSE(complaint_about(*answer.proof).has_value());
 }
 
-TEST_CASE("a proof is the same on one thread and on three, and so is what is in question") {
+TEST_CASE("a proof is the same on one thread and on three, and so is what is in question", "[threads]") {
   for (const char* hole : {"box(-1,-1/8,-1/8, 1,1/8,1/8)", "box(-1,-19/40,-19/40, 1,19/40,19/40)"}) {
     INFO(hole);
     const Scene scene = scene_of(wall("box(-1/2,-1/2,-1/2, 1/2,1/2,1/2)", hole, kInBox));

@@ -115,7 +115,7 @@ void check_path(const Scene& scene, const RigidAnswer& answer, std::size_t poses
   }
 }
 
-TEST_CASE("A bar turns round an elbow in x, y and z with .2 % of slack", "[rigid]") {
+TEST_CASE("A bar turns round an elbow in x, y and z with .2 % of slack", "[rigid][threads]") {
   const Scene scene = load("rigid/elbow");
   const RigidAnswer answer = answer_of(scene);
   check_path(scene, answer, 60);
@@ -129,7 +129,8 @@ TEST_CASE("A bar turns round an elbow in x, y and z with .2 % of slack", "[rigid
   }
 }
 
-TEST_CASE("A search through slices that is out of slices goes on with more, on any number of threads", "[rigid]") {
+TEST_CASE("A search through slices that is out of slices goes on with more, on any number of threads",
+          "[rigid][threads]") {
   const Scene scene = load("rigid/elbow");
   const MotionChecker checker = MotionChecker::of_scene(scene);
   std::vector<std::size_t> made;
@@ -147,7 +148,7 @@ TEST_CASE("A search through slices that is out of slices goes on with more, on a
   for (std::size_t i = 6; i < made.size(); ++i) CHECK(made[i] == made[i - 6]);
 }
 
-TEST_CASE("Values are made once, by whoever asks first", "[rigid]") {
+TEST_CASE("Values are made once, by whoever asks first", "[rigid][threads]") {
   MadeOnce<int, int> values;
   CHECK(values.known(3).value == nullptr);
   CHECK_THROWS_AS(values.at(3, []() -> int { throw InputError("not now"); }), InputError);
@@ -246,7 +247,7 @@ TEST_CASE("Where there is room no slices are needed", "[rigid]") {
   CHECK(answer_of(scene, {}, limit.monitor()).status == Status::kUndecided);
 }
 
-TEST_CASE("The first trial that succeeds is the same on any number of threads", "[rigid]") {
+TEST_CASE("The first trial that succeeds is the same on any number of threads", "[rigid][threads]") {
   for (const unsigned threads : {1U, 3U}) {
     const Monitor monitor = Monitor().on_threads(threads);
     CHECK(first_true(0, monitor, [](std::size_t, const Monitor&) { return true; }) == 0);
@@ -346,7 +347,7 @@ TEST_CASE("Slices of bodies that are cut up once are the free positions of the t
   }
 }
 
-TEST_CASE("Paths become shorter, with the same ends", "[rigid]") {
+TEST_CASE("Paths become shorter, with the same ends", "[rigid][threads]") {
   const Scene scene = load("rigid/l_window");
   const MotionChecker checker = MotionChecker::of_scene(scene);
   const std::vector<RigidPose> detour{

@@ -6,6 +6,7 @@ step that fails stops the demo with its message, except where the failure is the
 infeasible planning problem exits with 1).
 """
 import html
+import json
 import os
 import shlex
 import subprocess
@@ -24,6 +25,16 @@ figcaption { padding: .6em .8em; } figcaption p { margin: .2em 0; color: var(--q
 pre { background: var(--block); padding: .6em; overflow-x: auto; white-space: pre-wrap; overflow-wrap: anywhere; }
 summary { cursor: pointer; color: var(--quiet); }
 """
+
+
+SMALL_HOLE = {
+    "robot": "box(-1/2,-1/2,-1/2, 1/2,1/2,1/2)",
+    "obstacles": ["box(-1/4,-3,-3, 1/4,3,3) - box(-1/4,-19/40,-19/40, 1/4,19/40,19/40)"],
+    "box": [[-4, -3, -3], [4, 3, 3]],
+    "rotation": "SO(3)",
+    "start": {"position": [-2, 0, 0], "quaternion": [1, 0, 0, 0]},
+    "goal": {"position": [2, 0, 0], "quaternion": [1, 0, 0, 0]},
+}
 
 
 class Section:
@@ -97,6 +108,12 @@ class Demo:
         self.run("nef", "view", *files, "-o", self.path(name + ".html"))
         self.sections[-1].pictures.append((name + ".png", name + ".html"))
 
+    def show_motion(self, name: str, *files: str, source: str) -> None:
+        """A picture of where a motion begins, which leads to the page that plays it; both have the name, as its glTF."""
+        self.run("nef", "picture", *files, "-o", self.path(name + ".png"), "--from", source, "--size", "640x480")
+        self.sections[-1].pictures.append((name + ".png", name + ".html"))
+        self.link(name + ".glb", "as glTF")
+
     def write_index(self) -> None:
         gallery = "\n".join(section.figure() for section in self.sections if section.pictures)
         details = "\n".join(section.details() for section in self.sections)
@@ -156,14 +173,32 @@ def main() -> None:
     demo.section("Through the passage", "Our planner finds the only way. Sampling in doubles cannot hit a set of measure zero, but with this suite's samplers and exact motion validator OMPL's planners get through too.")
     demo.run("planner", "data/planner/s1_tight_hole.json", "-o", demo.path("path.txt"), "-o", demo.path("planner.glb"),
              "--page", demo.path("planner.html"))
-    demo.run("nef", "picture", demo.path("wall.nef"), demo.path("robot.nef"), "-o", demo.path("planner.png"), "--from",
-             "0.4,-1.6,0.7", "--size", "640x480")
-    demo.sections[-1].pictures.append(("planner.png", "planner.html"))
-    demo.link("planner.glb", "as glTF")
+    demo.show_motion("planner", demo.path("wall.nef"), demo.path("robot.nef"), source="-1.6,-1,0.7")
     demo.run("planner", "data/planner/s1_tight_hole.json", "--ompl", "RRTConnect", "--time", "2", expect=(0, 1, 4))
 
     demo.section("No way", "A billionth less room, and the answer is a proof.")
     demo.run("planner", "data/planner/s1_narrower.json", expect=(1,))
+
+    demo.section("A robot that turns freely", "An L of bars passes a square window: it has to turn about two axes, and every motion is certified, not sampled.")
+    demo.run("planner", "data/planner/rigid/l_window.json", "-o", demo.path("turning.txt"), "-o", demo.path("turning.glb"),
+             "--page", demo.path("turning.html"))
+    demo.run("nef", "eval", "box(-4,4,-4, 4,33/8,4) - box(-4/5,4,-4/5, 4/5,5,4/5)", "-o", demo.path("window.nef"))
+    demo.run("nef", "eval", "box(-1/2,-3/2,-1/2, 5/2,-1/2,1/2) + box(-1/2,-3/2,-1/2, 1/2,-1/2,5/2)", "-o", demo.path("l.nef"))
+    demo.show_motion("turning", demo.path("window.nef"), demo.path("l.nef"), source="-0.8,-1.6,0.7")
+
+    demo.section("No way, however it turns", "A unit cube before a hole 0.95 wide: the proof holds for all positions and orientations, and is checked by other means.")
+    with open(demo.path("small_hole.json"), "w", encoding="utf-8") as file:
+        json.dump(SMALL_HOLE, file, indent=2)
+    demo.run("planner", demo.path("small_hole.json"), "--proof", demo.path("small_hole.proof"), expect=(1,))
+    demo.run("planner", demo.path("small_hole.json"), "--check-proof", demo.path("small_hole.proof"))
+
+    demo.section("A puzzle that comes apart", "A burr of six pieces: the order in which they can leave, found with no play between them at all.")
+    with open("data/planner/assembly/burr.json", encoding="utf-8") as file:
+        parts = json.load(file)["parts"]
+    for name, shape in parts.items():
+        demo.run("nef", "eval", shape, "-o", demo.path(f"burr_{name}.nef"))
+    demo.run("planner", "--assembly", "data/planner/assembly/burr.json", "-o", demo.path("burr.glb"), "--page", demo.path("burr.html"))
+    demo.show_motion("burr", *(demo.path(f"burr_{name}.nef") for name in parts), source="1,-1.6,1.1")
 
     demo.write_index()
 

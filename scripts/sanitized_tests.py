@@ -26,10 +26,10 @@ LIMIT = 900  # seconds; a case that takes longer has failed
 # In which quarters a program has parts. Two that take long to build have none in common; all quarters take about equally long.
 QUARTERS = {
     "test_planner": [0, 2], "test_visual_hull": [1, 3],
-    "test_core": [0], "test_query": [0],
-    "test_minkowski": [1],
+    "test_core": [0], "test_query": [0], "test_nef_mpi": [0],
+    "test_minkowski": [1], "test_command": [1],
     "test_tiles": [2], "test_view": [2], "test_remeshing": [2], "test_studio": [2],
-    "test_io": [3], "test_laws": [3], "test_command": [3], "test_nef_mpi": [3],
+    "test_io": [3], "test_laws": [3],
 }
 
 

@@ -36,9 +36,7 @@ class Operand {
   Operand& operator=(const Operand&) = delete;
 
   [[nodiscard]] const Complex& complex() const { return *complex_; }
-  [[nodiscard]] PlaneId plane(PlaneId own) const {
-    return rows_.empty() ? own : PlaneId{rows_[own.row()] << 1U | (own.value & 1U)};
-  }
+  [[nodiscard]] PlaneId plane(PlaneId own) const { return rows_.empty() ? own : own.in_row(rows_[own.row()]); }
   [[nodiscard]] PointId point(VertexId vertex) const { return point_of(vertex) + first_point_; }
   [[nodiscard]] SVertex svertex(HalfedgeId halfedge) const {
     SVertex result = complex_->svertex(halfedge);

@@ -29,11 +29,11 @@ EdgeSide edge_side(const PlaneTable& planes, PlaneId plane, const SVertex& s, co
   // With F = plane (unflipped normal f) and d = n_p x n_q: the left normal in the plane is f x d.
   // If p is F (up to orientation) and d = k f x g for k = +-1 and g the normal of the other plane,
   // then (f x d) . g = k ((f . g)^2 - |f|^2 |g|^2) < 0 for k = 1: left is the side of -k.
-  if (s.p.row() == plane.row()) return {PlaneId{s.q.row() << 1U}, s.p.flipped() != s.q.flipped() ? 1 : -1};
-  if (s.q.row() == plane.row()) return {PlaneId{s.p.row() << 1U}, s.p.flipped() != s.q.flipped() ? -1 : 1};
-  const PlaneId other{s.p.row() << 1U};
+  if (s.p.row() == plane.row()) return {s.q.unflipped(), s.p.flipped() != s.q.flipped() ? 1 : -1};
+  if (s.q.row() == plane.row()) return {s.p.unflipped(), s.p.flipped() != s.q.flipped() ? -1 : 1};
+  const PlaneId other = s.p.unflipped();
   const Direction d = direction_of(planes, s);
-  const Direction left = Direction::cross(Direction::normal(planes, PlaneId{plane.row() << 1U}), d);
+  const Direction left = Direction::cross(Direction::normal(planes, plane.unflipped()), d);
   return {other, sign_of_dot(left, Direction::normal(planes, other), monitor)};
 }
 

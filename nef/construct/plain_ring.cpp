@@ -23,8 +23,8 @@ bool PlainRing::read(std::uint32_t point, std::span<const FaceCorner> corners) {
     if (swapped) std::swap(first, second);
     const std::optional<int> sign = direction(point, ring_[i].next, first, second);
     if (!sign) return false;
-    const PlaneId unflipped{second.row() << 1U};
-    edges_[i] = {PlaneId{first.row() << 1U}, *sign > 0 ? unflipped : unflipped.opposite()};
+    const PlaneId unflipped = second.unflipped();
+    edges_[i] = {first.unflipped(), *sign > 0 ? unflipped : unflipped.opposite()};
     bits_ = bits_ << 3U | (swapped ? 4U : 0U) | (turned ? 2U : 0U) | (*sign > 0 ? 1U : 0U);
   }
   return true;

@@ -27,7 +27,7 @@ std::size_t coefficient_bits(const Complex& c) {
   std::size_t bits = 1;
   const auto add = [&bits](mpz_srcptr value) { bits = std::max(bits, mpz_sizeinbase(value, 2)); };
   for (std::uint32_t row = 0; row < c.planes.size(); ++row) {
-    for (std::size_t column = 0; column < 4; ++column) add(c.planes.coefficient(PlaneId{row << 1U}, column));
+    for (std::size_t column = 0; column < 4; ++column) add(c.planes.coefficient(PlaneId::of_row(row), column));
   }
   for (const VertexId v : c.vertex_ids()) {
     if (is_box_vertex(c, v)) continue;

@@ -16,7 +16,7 @@ namespace {
 std::vector<PlaneId> intern_normals(const PlaneTable& from, PlaneTable& to) {
   std::vector<PlaneId> result;
   for (std::uint32_t row = 0; row < from.size(); ++row) {
-    const PlaneId plane{row << 1U};
+    const PlaneId plane = PlaneId::of_row(row);
     result.push_back(to.intern(Integer(from.coefficient(plane, 0)), Integer(from.coefficient(plane, 1)),
                                Integer(from.coefficient(plane, 2)), Integer(0)));
   }

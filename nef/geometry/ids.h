@@ -18,9 +18,16 @@ struct PlaneId {
 
   constexpr PlaneId() = default;
   constexpr explicit PlaneId(std::uint32_t v) : value(v) {}
+  /// The plane of a row, seen from the side that its normal points to.
+  static constexpr PlaneId of_row(std::uint32_t row) { return PlaneId{row << 1U}; }
+
   [[nodiscard]] constexpr std::uint32_t row() const { return value >> 1U; }
   [[nodiscard]] constexpr bool flipped() const { return (value & 1U) != 0; }
   [[nodiscard]] constexpr PlaneId opposite() const { return PlaneId{value ^ 1U}; }
+  [[nodiscard]] constexpr PlaneId opposite_if(bool flip) const { return PlaneId{value ^ (flip ? 1U : 0U)}; }
+  [[nodiscard]] constexpr PlaneId unflipped() const { return of_row(row()); }
+  /// Another row's plane, flipped if this one is.
+  [[nodiscard]] constexpr PlaneId in_row(std::uint32_t other) const { return PlaneId{other << 1U | (value & 1U)}; }
   [[nodiscard]] constexpr bool valid() const { return value != kNone; }
   constexpr auto operator<=>(const PlaneId&) const = default;
 };

@@ -20,16 +20,16 @@ namespace nef {
 // The candidate is the last row; keep it only if no equal row exists.
 PlaneId PlaneTable::find_or_add_last() {
   const auto candidate = static_cast<std::uint32_t>(rows_.size() - 1);
-  if (!merges_) return PlaneId{candidate << 1U};
+  if (!merges_) return PlaneId::of_row(candidate);
   make_room_for(1, candidate);
   const std::uint32_t hash = RowSlots::hash_of(rows_, candidate);
   RowSlots::Slot& slot = slots_.find(rows_, hash, rows_, candidate);
   if (!slot.empty()) {
     rows_.pop();
-    return PlaneId{slot.row << 1U};
+    return PlaneId::of_row(slot.row);
   }
   slot = {candidate, hash};
-  return PlaneId{candidate << 1U};
+  return PlaneId::of_row(candidate);
 }
 
 void PlaneTable::keep(std::span<const std::uint8_t> used) {
@@ -107,11 +107,11 @@ PlaneId PlaneTable::intern_from(const PlaneTable& other, PlaneId plane) {
   make_room_for(1, size());
   const std::uint32_t hash = RowSlots::hash_of(other.rows_, plane.row());
   RowSlots::Slot& slot = slots_.find(rows_, hash, other.rows_, plane.row());
-  if (!slot.empty()) return PlaneId{slot.row << 1U | (plane.value & 1U)};
+  if (!slot.empty()) return plane.in_row(slot.row);
   const auto row = static_cast<std::uint32_t>(size());
   rows_.push_from(other.rows_, plane.row());
   slot = {row, hash};
-  return PlaneId{row << 1U | (plane.value & 1U)};
+  return plane.in_row(row);
 }
 
 // Slots are all over a large table, so all are fetched before the first one is looked at.

@@ -75,7 +75,7 @@ SolidFaces MeshFaces::collect(std::span<const std::uint32_t> faces) {
   add_faces(in_order_of_points(faces));
   const std::vector<std::uint32_t> rows = f_.planes.merge_equal(for_vertices(f_.planes.size(), options_.monitor));
   if (!rows.empty()) {
-    for (PlaneId& plane : f_.plane) plane = PlaneId{rows[plane.row()] << 1U | (plane.value & 1U)};
+    for (PlaneId& plane : f_.plane) plane = plane.in_row(rows[plane.row()]);
   }
   return std::move(f_);
 }
@@ -110,7 +110,7 @@ void MeshFaces::join(std::vector<Listed>&& blocks) {
     const auto rows = static_cast<std::uint32_t>(all.planes.size());
     const auto before = static_cast<std::uint32_t>(all.corners.size());
     all.planes.append_new(block.planes, 0, block.planes.size());
-    for (const PlaneId plane : block.plane) all.plane.push_back(PlaneId{plane.value + 2 * rows});
+    for (const PlaneId plane : block.plane) all.plane.push_back(plane.in_row(plane.row() + rows));
     for (const std::uint32_t end : std::span(block.begin).subspan(1)) all.begin.push_back(before + end);
     all.corners.insert(all.corners.end(), block.corners.begin(), block.corners.end());
   }

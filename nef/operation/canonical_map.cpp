@@ -13,7 +13,7 @@ namespace {
 
 // Keeps the two smallest rows, as unflipped planes.
 void take_row(SVertex& svertex, std::uint32_t row) {
-  const PlaneId plane{row << 1U};
+  const PlaneId plane = PlaneId::of_row(row);
   if (plane == svertex.p || plane == svertex.q) return;
   if (plane < svertex.p) {
     svertex.q = svertex.p;

@@ -60,12 +60,8 @@ class CanonicalMapWriter {
     std::uint32_t old = 0;
   };
 
-  [[nodiscard]] PlaneId renamed(PlaneId plane) const {
-    return PlaneId{renamed_[plane.row()] << 1U | (plane.value & 1U)};
-  }
-  [[nodiscard]] PlaneId common(PlaneId plane) const {
-    return rows_.empty() ? plane : PlaneId{rows_[plane.row()] << 1U | (plane.value & 1U)};
-  }
+  [[nodiscard]] PlaneId renamed(PlaneId plane) const { return plane.in_row(renamed_[plane.row()]); }
+  [[nodiscard]] PlaneId common(PlaneId plane) const { return rows_.empty() ? plane : plane.in_row(rows_[plane.row()]); }
 
   void write_svertices(const SphereMapView& map, std::span<const BareLine> lines);
   void turn_along(const SVertex& old, SVertex& svertex) const;

@@ -29,7 +29,7 @@ namespace {
 // A total order of the planes of one table.
 bool coefficients_less(const PlaneTable& planes, std::uint32_t a, std::uint32_t b) {
   for (std::size_t i = 0; i < 5; ++i) {
-    const int order = mpz_cmp(planes.coefficient(PlaneId{a << 1U}, i), planes.coefficient(PlaneId{b << 1U}, i));
+    const int order = mpz_cmp(planes.coefficient(PlaneId::of_row(a), i), planes.coefficient(PlaneId::of_row(b), i));
     if (order != 0) return order < 0;
   }
   return false;
@@ -90,7 +90,7 @@ class Canonical {
   }
   [[nodiscard]] PlaneId common(std::uint32_t i, PlaneId plane) const {
     const std::span<const std::uint32_t> rows = parts_[vertices_[i].part].rows;
-    return rows.empty() ? plane : PlaneId{rows[plane.row()] << 1U | (plane.value & 1U)};
+    return rows.empty() ? plane : plane.in_row(rows[plane.row()]);
   }
   [[nodiscard]] PointRef point(std::uint32_t i) const {
     if (!reduced_at_.empty() && reduced_at_[i] != kNone) return {&reduced_, PointId{reduced_at_[i]}};
@@ -215,7 +215,7 @@ class Canonical {
     });
     for (const std::vector<BareLine>& lines : of_chunk) {
       for (BareLine line : lines) {
-        if (line.rows[0] != kNone) line.rows[0] = common(line.place, PlaneId{line.rows[0] << 1U}).row();
+        if (line.rows[0] != kNone) line.rows[0] = common(line.place, PlaneId::of_row(line.rows[0])).row();
         complete(line);
         lines_.push_back(line);
       }

@@ -86,7 +86,7 @@ bool CanonicalRings::read(const RingOfPattern& ring, std::span<const PlaneId> pl
   for (std::size_t k = 0; k < n; ++k) {
     const auto i = static_cast<std::size_t>(sorted[k] & 15U);
     if (k > 0 && planes_[k - 1].row() == rows[i]) return false;
-    planes_[k] = PlaneId{rows[i] << 1U};
+    planes_[k] = PlaneId::of_row(rows[i]);
     rank[i] = static_cast<std::uint8_t>(k);
   }
   const auto first = static_cast<std::size_t>(sorted[0] & 15U);

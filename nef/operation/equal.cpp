@@ -12,7 +12,7 @@ namespace {
 bool same_planes(const PlaneTable& a, const PlaneTable& b) {
   if (a.size() != b.size()) return false;
   for (std::uint32_t row = 0; row < a.size(); ++row) {
-    const PlaneId plane{row << 1U};
+    const PlaneId plane = PlaneId::of_row(row);
     for (std::size_t column = 0; column < 5; ++column) {
       if (mpz_cmp(a.coefficient(plane, column), b.coefficient(plane, column)) != 0) return false;
     }

@@ -49,7 +49,7 @@ struct IntegerMap {
   // n.x + d + e R = 0 becomes w (cof n).x' + (det d - (cof n).t) + det e R = 0, times sign(det) so
   // that positive sides stay positive.
   PlaneId map_plane(const PlaneTable& from, std::uint32_t row, const Integer& box_factor, PlaneTable& to) const {
-    const PlaneId plane{row << 1U};
+    const PlaneId plane = PlaneId::of_row(row);
     Integer3 n;
     Integer d = determinant * from.oriented_coefficient(plane, 3);
     Integer e = determinant * from.oriented_coefficient(plane, 4) * box_factor;
@@ -174,7 +174,7 @@ class Translation {
  private:
   // n.x + d = 0 becomes w n.x + (w d - n.t) = 0.
   void move_plane(const PlaneTable& from, std::uint32_t row, PlaneTable& to) {
-    const PlaneId plane{row << 1U};
+    const PlaneId plane = PlaneId::of_row(row);
     NEF_ASSERT(!from.infimaximal(plane));
     mpz_mul(new_[3].get_mpz_t(), from.coefficient(plane, 3), w_.get_mpz_t());
     mpz_set_ui(divisor_.get_mpz_t(), 0);

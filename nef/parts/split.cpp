@@ -99,7 +99,7 @@ class PieceMaker {
         row = planes.append_new(c_.planes, plane.row());
         rows_in_use_.push_back(plane.row());
       }
-      plane = PlaneId{row << 1U | (plane.value & 1U)};
+      plane = plane.in_row(row);
     });
   }
 

@@ -275,8 +275,8 @@ void Arrangement::choose_planes(const PlaneTable& planes, std::uint32_t node, SV
     if (candidate.row() != first.row() && (!second.valid() || candidate.row() < second.row())) second = candidate;
   }
   if (!second.valid()) return require_planes();  // an edge within one plane, whose faces do not go on from each other
-  first = PlaneId{first.row() << 1U};
-  second = PlaneId{second.row() << 1U};
+  first = first.unflipped();
+  second = second.unflipped();
   if (v.p == first && v.q == second) return;
   const bool same_pair = (v.p.row() == first.row() && v.q.row() == second.row()) ||
                          (v.p.row() == second.row() && v.q.row() == first.row());

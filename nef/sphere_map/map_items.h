@@ -72,7 +72,7 @@ class LocalPlanes {
     if (pairs_ == kNone) return name;
     const std::uint32_t place = name.row();
     const PlaneId plane = place < pairs_ ? of_pairs_[place] : others_[place - pairs_];
-    return PlaneId{plane.value ^ (name.value & 1U)};
+    return plane.opposite_if(name.flipped());
   }
 
  private:

@@ -18,10 +18,6 @@ namespace {
 
 constexpr std::size_t kFewVertices = 16;
 
-void rename(PlaneId& plane, std::span<const std::uint32_t> rows) {
-  plane = PlaneId{rows[plane.row()] << 1U | (plane.value & 1U)};
-}
-
 // A point at infinity along all three axes.
 bool far_corner(const PointTable& points, PointId point) {
   for (std::size_t i = 4; i < 7; ++i) {
@@ -212,7 +208,7 @@ class PatternsOfRuns {
 
 void ComplexBuilder::copy_planes(const CopiedRun& run) {
   const auto with_rows = [rows = run.rows](PlaneId& plane) {
-    if (!rows.empty()) rename(plane, rows);
+    if (!rows.empty()) plane = plane.in_row(rows[plane.row()]);
   };
   const VertexRecord& begin = run.from->vertices[run.first];
   const VertexRecord& end = run.from->vertices[run.first + run.count];
@@ -223,7 +219,7 @@ void ComplexBuilder::copy_planes(const CopiedRun& run) {
 
 void ComplexBuilder::copy_sloops(const CopiedRun& run) {
   const auto change = [&run](SLoop& loop) {
-    if (!run.rows.empty()) rename(loop.plane, run.rows);
+    if (!run.rows.empty()) loop.plane = loop.plane.in_row(run.rows[loop.plane.row()]);
     if (!run.marks.empty() && loop.mark != kOutside) loop.mark = run.marks[loop.mark];
   };
   copy_changed(run.from->sloops, run.from->vertices[run.first].sloops, run.from->vertices[run.first + run.count].sloops,
@@ -303,7 +299,7 @@ void ComplexBuilder::drop_idle_planes() {
   for (std::uint32_t i = 0; i < used.size(); ++i) {
     if (used[i] != 0) row[i] = count++;
   }
-  for_each_plane_of(c, [&row](PlaneId& plane) { rename(plane, row); });
+  for_each_plane_of(c, [&row](PlaneId& plane) { plane = plane.in_row(row[plane.row()]); });
   planes_.keep(used);
 }
 

@@ -213,7 +213,7 @@ class FacetLinker {
     result_.isolated_vertices.insert(result_.isolated_vertices.end(), known_->isolated_vertices.begin() + first_inside,
                                      known_->isolated_vertices.begin() + end_inside);
     for (Facet facet : facets) {
-      facet.plane = PlaneId{facet.plane.row() << 1U};
+      facet.plane = facet.plane.unflipped();
       result_.facets.push_back(facet);
     }
   }
@@ -224,7 +224,7 @@ class FacetLinker {
       emit(row, cycles, {});
       return;
     }
-    const PlaneAxes axes(c_.planes, PlaneId{row << 1U});
+    const PlaneAxes axes(c_.planes, PlaneId::of_row(row));
     std::vector<std::uint32_t> facet_of(cycles.size(), kNone);  // number of the outer cycle, of each cycle
     std::vector<std::vector<std::uint32_t>> members;            // cycles of each facet, the outer one first
     for (std::uint32_t i = 0; i < cycles.size(); ++i) {
@@ -306,7 +306,7 @@ class FacetLinker {
       asking.push_back(static_cast<std::uint32_t>(facet_of.size()));
       facet_of.push_back(kNone);
     }
-    for (const CornerBelow& below : corners_below(c_, PlaneId{row << 1U}, corners, lowest, monitor_)) {
+    for (const CornerBelow& below : corners_below(c_, PlaneId::of_row(row), corners, lowest, monitor_)) {
       const std::uint32_t facet = below.corner == kNone ? kNone : facet_of[cycle_of[below.corner]];
       detail::require(facet != kNone, "a hole lies in a facet", {{"vertex", lowest[below.query]}});
       facet_of[asking[below.query]] = facet;
@@ -315,7 +315,7 @@ class FacetLinker {
 
   void emit(std::uint32_t row, std::span<const std::uint32_t> cycles, std::span<const VertexId> inside) {
     Facet facet;
-    facet.plane = PlaneId{row << 1U};
+    facet.plane = PlaneId::of_row(row);
     facet.cycle_count = static_cast<std::uint32_t>(cycles.size());
     facet.isolated_count = static_cast<std::uint32_t>(inside.size());
     result_.facets.push_back(facet);

@@ -128,7 +128,7 @@ SplitPiece split_polygon(ConvexPiece&& piece, const std::vector<int>& signs, Pla
 
 SplitPiece split(ConvexPiece&& piece, PlaneId plane, const PlaneTable& planes, PointTable& points,
                  const Monitor& monitor) {
-  const PlaneId positive{plane.row() << 1U};
+  const PlaneId positive = plane.unflipped();
   SplitPiece result;
   if (piece.dimension > 0 && (piece.p.row() == plane.row() || (piece.dimension == 1 && piece.q.row() == plane.row()))) {
     result.on = std::move(piece);
@@ -169,7 +169,7 @@ ConvexPiece plane_in_box(PlaneId plane, const std::array<PlaneId, 6>& box, const
   const std::array<PlaneId, 4> around{box[2 * v], box[2 * u + 1], box[2 * v + 1], box[2 * u]};
   ConvexPiece piece;
   piece.dimension = 2;
-  piece.p = PlaneId{plane.row() << 1U};
+  piece.p = plane.unflipped();
   for (std::size_t i = 0; i < 4; ++i) {
     piece.points.push_back(meeting(piece.p, around[(i + 3) % 4], around[i], planes, points));
     piece.sides.push_back(around[i]);

@@ -10,7 +10,7 @@ namespace {
 
 PlaneId side_plane(const Complex& complex, const Facet& facet, HalfedgeId halfedge) {
   const SVertex& s = complex.svertex(halfedge);
-  return PlaneId{(s.p.row() == facet.plane.row() ? s.q : s.p).row() << 1U};
+  return (s.p.row() == facet.plane.row() ? s.q : s.p).unflipped();
 }
 
 // True if the facet's angle at the corner is at most a half-turn.
@@ -102,7 +102,7 @@ void append_facet_pieces(const Complex& complex, FacetId f, CellId cell, const P
     const HalfedgeId halfedge = complex.corner_halfedge(corner);
     ConvexPiece edge;
     edge.dimension = 1;
-    edge.p = PlaneId{facet.plane.row() << 1U};
+    edge.p = facet.plane.unflipped();
     edge.q = side_plane(complex, facet, halfedge);
     edge.points = {point_of(complex.source(halfedge)), point_of(complex.target(halfedge))};
     edges.push_back(std::move(edge));

@@ -89,7 +89,7 @@ class SpaceTreeBuilder {
     }
     pieces = Pieces{};
     const auto node = static_cast<std::uint32_t>(tree_.nodes.size());
-    tree_.nodes.push_back({PlaneId{plane.row() << 1U}, {}});
+    tree_.nodes.push_back({plane.unflipped(), {}});
     Region on = region;
     --on.dimension;
     if (region.dimension == 3) on.p = plane;
@@ -144,7 +144,7 @@ class SpaceTreeBuilder {
 
   /// Splits are expensive, imbalance makes depth, pieces in the plane are done with.
   long score_of(PlaneId plane, const Pieces& pieces) {
-    const PlaneId positive{plane.row() << 1U};
+    const PlaneId positive = plane.unflipped();
     const std::size_t step = 1 + pieces.size() / 256;
     long crossed = 0;
     long balance = 0;
@@ -193,8 +193,7 @@ class SpaceTreeBuilder {
                    tree_.planes.coefficient(region.p, (i + 2) % 3).sign() != 0;
       }
     } else {
-      const Integer3 direction =
-          Direction::cross(tree_.planes, PlaneId{region.p.row() << 1U}, PlaneId{region.q.row() << 1U}).integers();
+      const Integer3 direction = Direction::cross(tree_.planes, region.p.unflipped(), region.q.unflipped()).integers();
       for (std::size_t i = 0; i < 3; ++i) along[i] = direction[i] != 0;
     }
     return along[0] ? 0U : along[1] ? 1U : 2U;

@@ -16,7 +16,7 @@ namespace nef {
 class PlaneColumn {
  public:
   [[nodiscard]] PlaneId operator[](SHalfedgeId half) const {
-    return PlaneId{values_[pair_of(half)].value ^ (half.index() & 1U)};
+    return values_[pair_of(half)].opposite_if((half.index() & 1U) != 0);
   }
   [[nodiscard]] std::size_t size() const { return 2 * values_.size(); }
 

@@ -55,7 +55,7 @@ std::uint64_t PatternInterner::hash(const SphereMapView& map) {
 PlaneId PatternInterner::name_of(PlaneId plane, std::uint32_t guess) {
   const std::span<const PlaneId> pairs = std::span(*of_pairs_).subspan(first_pair_);
   const auto named = [plane](std::size_t place, PlaneId there) {
-    return PlaneId{static_cast<std::uint32_t>(place << 1U) | ((there.value ^ plane.value) & 1U)};
+    return PlaneId::of_row(static_cast<std::uint32_t>(place)).opposite_if(there != plane);
   };
   const auto at = [&](std::size_t i) { return pairs[i].row() == plane.row(); };
   const std::size_t count = pairs.size();
@@ -70,10 +70,10 @@ PlaneId PatternInterner::name_of(PlaneId plane, std::uint32_t guess) {
     }
   } else {
     if (sorted_.empty()) {
-      for (std::uint32_t i = 0; i < count; ++i) sorted_.emplace_back(PlaneId{pairs[i].row() << 1U}, i);
+      for (std::uint32_t i = 0; i < count; ++i) sorted_.emplace_back(pairs[i].unflipped(), i);
       std::sort(sorted_.begin(), sorted_.end());
     }
-    const auto found = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair(PlaneId{plane.row() << 1U}, 0U));
+    const auto found = std::lower_bound(sorted_.begin(), sorted_.end(), std::pair(plane.unflipped(), 0U));
     if (found != sorted_.end() && found->first.row() == plane.row()) return named(found->second, pairs[found->second]);
   }
   const std::size_t looked_at = std::min(others_->size(), first_other_ + kFew);

@@ -42,7 +42,7 @@ class BinaryReader {
     c_.planes.reserve(n_.planes);
     const auto put = [this](std::size_t row, int lead, PlaneId plane) {
       file_.demand(lead > 0, "a plane has no normal, or one of the wrong sign");
-      file_.demand(plane == PlaneId{static_cast<std::uint32_t>(2 * row)}, "a plane occurs twice");
+      file_.demand(plane == PlaneId::of_row(static_cast<std::uint32_t>(row)), "a plane occurs twice");
     };
     const auto lead = [](int a, int b, int c) { return a != 0 ? a : b != 0 ? b : c; };
     file_.numbers<5>(

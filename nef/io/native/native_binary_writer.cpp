@@ -38,7 +38,7 @@ class BinaryWriter {
       put(static_cast<std::uint32_t>(count));
     }
     numbers(5, c_.planes.size(),
-            [this](std::uint32_t row, std::size_t i) { return c_.planes.coefficient(PlaneId{2 * row}, i); });
+            [this](std::uint32_t row, std::size_t i) { return c_.planes.coefficient(PlaneId::of_row(row), i); });
     numbers(7, c_.points.size(),
             [this](std::uint32_t row, std::size_t i) { return c_.points.coordinate(PointId{row}, i); });
     if (width == 1) sphere_maps<std::uint8_t>();

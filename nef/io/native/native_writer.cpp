@@ -18,7 +18,7 @@ class NativeWriter {
     for (std::uint32_t row = 0; row < c_.planes.size(); ++row) {
       for (std::size_t i = 0; i < 5; ++i) {
         if (i > 0) text_ += ' ';
-        append_integer(text_, c_.planes.coefficient(PlaneId{2 * row}, i));
+        append_integer(text_, c_.planes.coefficient(PlaneId::of_row(row), i));
       }
       text_ += '\n';
     }

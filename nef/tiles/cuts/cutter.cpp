@@ -41,7 +41,7 @@ PlaneTable own_planes(const PlaneTable& all, Complex& piece, std::vector<std::ui
   PlaneTable planes;
   planes.reserve(used.size());
   for (const std::uint32_t r : used) row[r] = planes.append_new(all, r);
-  for_each_plane_of(piece, [&row](PlaneId& plane) { plane = PlaneId{row[plane.row()] << 1U | (plane.value & 1U)}; });
+  for_each_plane_of(piece, [&row](PlaneId& plane) { plane = plane.in_row(row[plane.row()]); });
   for (const std::uint32_t r : used) row[r] = kNone;
   return planes;
 }
@@ -211,7 +211,7 @@ Complex Cutter::loose(const Complex& complex) {
     const Complex corners = infimaximal_corners(complex.volumes[kOuterVolume].mark, monitor_);
     std::vector<std::uint32_t> rows;
     for (std::uint32_t row = 0; row < corners.planes.size(); ++row) {
-      rows.push_back(planes_.intern_from(corners.planes, PlaneId{row << 1U}).row());
+      rows.push_back(planes_.intern_from(corners.planes, PlaneId::of_row(row)).row());
     }
     builder.copy(corners, rows);
     const auto shift = static_cast<std::uint32_t>(twin.size());

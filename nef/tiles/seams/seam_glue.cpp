@@ -294,9 +294,7 @@ class SeamGlue {
     return edge_side(planes_, wall, svertex, own).other;
   }
 
-  static PlaneId renamed(const Leaf& leaf, PlaneId plane) {
-    return PlaneId{leaf.rows[plane.row()] << 1U | (plane.value & 1U)};
-  }
+  static PlaneId renamed(const Leaf& leaf, PlaneId plane) { return plane.in_row(leaf.rows[plane.row()]); }
 
   // Puts the pyramids together at every point of a seam.
   void join_points() {

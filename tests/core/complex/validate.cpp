@@ -103,7 +103,7 @@ struct Breaker {
                                 c.shalfedge_plane.pairs().begin() + pair_of(b.shalfedges));
     planes.insert(planes.end(), c.other_planes.begin() + a.other_planes, c.other_planes.begin() + b.other_planes);
     const auto meant = [&planes](PlaneId id) {
-      return id.row() < planes.size() ? PlaneId{planes[id.row()].value ^ (id.value & 1U)} : PlaneId();
+      return id.row() < planes.size() ? planes[id.row()].opposite_if(id.flipped()) : PlaneId();
     };
     const PlaneId old = x;
     for (const PlaneId value : {old.opposite(), PlaneId{old.value ^ 2U}, PlaneId{std::uint32_t(2 * planes.size())}}) {

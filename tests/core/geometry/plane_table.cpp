@@ -49,12 +49,12 @@ TEST_CASE("planes merged at the end are those looked for one by one") {
       }
       const std::vector<std::uint32_t> rows = later.merge_equal();
       if (!rows.empty()) {
-        for (PlaneId& plane : found) plane = PlaneId{rows[plane.row()] << 1U | (plane.value & 1U)};
+        for (PlaneId& plane : found) plane = plane.in_row(rows[plane.row()]);
       }
       CHECK(found == expected);
       REQUIRE(later.size() == at_once.size());
       for (std::uint32_t row = 0; row < later.size(); ++row) {
-        const PlaneId plane{row << 1U};
+        const PlaneId plane = PlaneId::of_row(row);
         CHECK(later.approximate(plane) == at_once.approximate(plane));
         for (std::size_t i = 0; i < 5; ++i) {
           CHECK(mpz_cmp(later.coefficient(plane, i), at_once.coefficient(plane, i)) == 0);

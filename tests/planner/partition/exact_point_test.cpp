@@ -51,9 +51,9 @@ TEST_CASE("sides of points and of crossings on segments are exact") {
     if (normal == Rational3{}) continue;
     const PlaneId first = planes.intern(normal, numbers.number());
     const int at_a = sign_at(planes, first, a);
-    CHECK(pa.side(planes, PlaneId{first.row() << 1U}) == at_a);
+    CHECK(pa.side(planes, first.unflipped()) == at_a);
     if (at_a * sign_at(planes, first, b) >= 0) continue;
-    const SegmentParameter t = ExactSegment::crossing(segment.forms(PlaneId{first.row() << 1U}), at_a);
+    const SegmentParameter t = ExactSegment::crossing(segment.forms(first.unflipped()), at_a);
     const Rational3 x = segment.point(segment.exact(t));
     CHECK(sign_at(planes, first, x) == 0);
     normal = numbers.point();
@@ -63,7 +63,7 @@ TEST_CASE("sides of points and of crossings on segments are exact") {
     if (kind == 1) offset += exact_rational(std::ldexp(1, -60));
     if (kind == 2) offset -= exact_rational(std::ldexp(1, -45));
     if (kind == 3) offset = numbers.number();
-    const PlaneId second{planes.intern(normal, offset).row() << 1U};
+    const PlaneId second = planes.intern(normal, offset).unflipped();
     const int expected = sign_at(planes, second, x);
     CHECK(segment.side(segment.forms(second), t) == expected);
     CHECK(segment.side(segment.forms(second), ExactSegment::fixed(0)) == sign_at(planes, second, a));

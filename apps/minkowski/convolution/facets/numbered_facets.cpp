@@ -193,7 +193,7 @@ class FacetNumbering {
       for (std::size_t f = from; f < to; ++f) {
         const PointId corner{result_.corners[result_.begin[f]]};
         const PlaneId plane = finder.through(table, result_.points, integers_of(normals_[f]), corner);
-        result_.plane[f] = PlaneId{plane.value + static_cast<std::uint32_t>(2 * from)};  // a row each
+        result_.plane[f] = plane.in_row(plane.row() + static_cast<std::uint32_t>(from));  // a row each
       }
     });
     normals_ = {};
@@ -204,7 +204,7 @@ class FacetNumbering {
     }
     const std::vector<std::uint32_t> rows = result_.planes.merge_equal();
     if (rows.empty()) return;
-    for (PlaneId& plane : result_.plane) plane = PlaneId{rows[plane.row()] << 1U | (plane.value & 1U)};
+    for (PlaneId& plane : result_.plane) plane = plane.in_row(rows[plane.row()]);
   }
 
   const SolidFeatures& a_;

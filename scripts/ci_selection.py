@@ -123,6 +123,15 @@ def look_at(items: dict[str, list[str]], first: set[str], seconds: float, look: 
         return choice.end({item for item, ended in zip(choice.order, pool.map(begin, choice.order)) if ended})
 
 
+def built(folder: str, target: str) -> bool:
+    """Builds a target in a folder that is configured; shows the end of what that printed if it fails."""
+    run = subprocess.run(["cmake", "--build", folder, "--target", target], capture_output=True, text=True, errors="replace",
+                         check=False)
+    if run.returncode != 0:
+        print(run.stdout[-4000:], flush=True)
+    return run.returncode == 0
+
+
 def main() -> int:
     command = sys.argv[1] if len(sys.argv) > 1 else ""
     if command == "base":

@@ -101,17 +101,20 @@ class Demo:
         """A further file of the section."""
         self.sections[-1].links.append((file, text))
 
+    def picture(self, name: str, files: tuple[str, ...], source: str) -> None:
+        """A picture that leads to the page of the same name."""
+        self.run("nef", "picture", *files, "-o", self.path(name + ".png"), "--from", source, "--size", "640x480")
+        self.sections[-1].pictures.append((name + ".png", name + ".html"))
+
     def show(self, *files: str, source: str = "1,-1.6,1.1") -> None:
         """A picture of the given polyhedra in the gallery, which leads to their page."""
         name = os.path.splitext(os.path.basename(files[0]))[0]
-        self.run("nef", "picture", *files, "-o", self.path(name + ".png"), "--from", source, "--size", "640x480")
+        self.picture(name, files, source)
         self.run("nef", "view", *files, "-o", self.path(name + ".html"))
-        self.sections[-1].pictures.append((name + ".png", name + ".html"))
 
     def show_motion(self, name: str, *files: str, source: str) -> None:
         """A picture of where a motion begins, which leads to the page that plays it; both have the name, as its glTF."""
-        self.run("nef", "picture", *files, "-o", self.path(name + ".png"), "--from", source, "--size", "640x480")
-        self.sections[-1].pictures.append((name + ".png", name + ".html"))
+        self.picture(name, files, source)
         self.link(name + ".glb", "as glTF")
 
     def write_index(self) -> None:

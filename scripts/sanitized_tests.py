@@ -120,10 +120,7 @@ def main() -> int:
     def look(item: str, is_due: bool) -> bool:
         program = program_of[item]
         begin = time.monotonic()
-        built = subprocess.run(["cmake", "--build", arguments.build, "--target", program], capture_output=True, text=True,
-                               errors="replace", check=False)
-        if built.returncode != 0:
-            print(built.stdout[-4000:], flush=True)
+        if not ci_selection.built(arguments.build, program):
             failed.append(f"{program} was not built")
             return False
         middle = time.monotonic()

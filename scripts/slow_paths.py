@@ -27,11 +27,7 @@ def main() -> int:
 
     def look(item: str, _: bool = True) -> bool:
         program = item.split()[0]
-        target = "nef_command" if program == "nef" else program
-        built = subprocess.run(["cmake", "--build", arguments.build, "--target", target], capture_output=True, text=True,
-                               errors="replace", check=False)
-        if built.returncode != 0:
-            print(built.stdout[-4000:], flush=True)
+        if not ci_selection.built(arguments.build, "nef_command" if program == "nef" else program):
             failed.append(program)
             return False
         scripts = os.path.dirname(os.path.abspath(__file__))

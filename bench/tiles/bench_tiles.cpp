@@ -12,15 +12,21 @@
 // meets a few others; pairs smallest first, unite_all, and region by region. With --stream the latter alone, each piece
 // made when it is needed; with --no-tiles all but that, and with --only unite_all alone, both once. CPU seconds of one
 // thread. What is compared runs in turn, in one process.
+#ifdef NEF_WITH_JEMALLOC
+#include <jemalloc/jemalloc.h>
+#else
 #include <malloc.h>
+#endif
 
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <functional>
 #include <memory>
 #include <random>
+#include <stdexcept>
 
 #include "bench/generators.h"
 #include "bench/report.h"
@@ -46,8 +52,19 @@ double seconds_of(const std::function<void()>& body) {
 
 // Bytes that malloc has given and not got back.
 std::size_t allocated() {
+#ifdef NEF_WITH_JEMALLOC
+  std::uint64_t epoch = 1;  // its figures are those of the last time that somebody wrote it
+  std::size_t bytes = 0;
+  std::size_t size = sizeof bytes;
+  if (mallctl("epoch", nullptr, nullptr, &epoch, sizeof epoch) != 0 ||
+      mallctl("stats.allocated", &bytes, &size, nullptr, 0) != 0) {
+    throw std::runtime_error("jemalloc was built without its statistics");
+  }
+  return bytes;
+#else
   const struct mallinfo2 info = mallinfo2();
   return info.uordblks + info.hblkhd;
+#endif
 }
 
 // Sphere and centres of cubes on it: integers, the same on every machine.
@@ -296,19 +313,38 @@ void fold(int level, int count, double size, const Tiling& tiling) {
       plain / (cutting + steps + gluing), equal(glued, at_once) ? "the same" : "DIFFERENT");
 }
 
-// The same tetrahedron for the same number on every machine, with corners on a grid of 2^-10 in a cube of volume COUNT.
-Polyhedron random_tetrahedron(std::uint32_t number, std::uint32_t count, double size) {
+// The corners of a tetrahedron, the same for the same number on every machine, on a grid of 2^-10 in a cube of volume
+// COUNT.
+using Corners = std::array<std::array<double, 3>, 4>;
+Corners random_corners(std::uint32_t number, std::uint32_t count, double size) {
   std::mt19937_64 random(number + 1U);
   const double side = std::cbrt(static_cast<double>(count));
   const auto uniform = [&random] { return static_cast<double>(random() >> 40U) * 0x1p-24; };
   const std::array<double, 3> middle{side * uniform(), side * uniform(), side * uniform()};
-  std::array<Rational3, 4> corners;
-  for (Rational3& corner : corners) {
+  Corners corners;
+  for (std::array<double, 3>& corner : corners) {
     for (std::size_t i = 0; i < 3; ++i) {
-      corner[i] = exact_rational(std::floor((middle[i] + size * (uniform() - 0.5)) * 0x1p10) * 0x1p-10);
+      corner[i] = std::floor((middle[i] + size * (uniform() - 0.5)) * 0x1p10) * 0x1p-10;
     }
   }
-  return convex_hull(corners);
+  return corners;
+}
+
+Polyhedron tetrahedron(const Corners& corners) {
+  std::array<Rational3, 4> exact;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    for (std::size_t i = 0; i < 3; ++i) exact[k][i] = exact_rational(corners[k][i]);
+  }
+  return convex_hull(exact);
+}
+
+// Regions over tetrahedra none of which has been made yet: their corners tell their boxes.
+RegionalUnion regions_of_tetrahedra(std::uint32_t count, double size) {
+  std::vector<Box> boxes(count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    for (const std::array<double, 3>& corner : random_corners(i, count, size)) boxes[i].add_rounded(corner);
+  }
+  return {std::move(boxes), kSetsOfARegion};
 }
 
 // Pairs of sets of about the same size, wherever they lie: the order before that of neighbours, to compare with.
@@ -349,7 +385,7 @@ struct UnionBench {
 
 void unite_tetrahedra(std::uint32_t count, const UnionBench& bench, const Tiling& tiling) {
   const PieceSource made_when_needed{.count = count, .set = [count, &bench](std::uint32_t i, const nef::Monitor&) {
-                                       return random_tetrahedron(i, count, bench.size);
+                                       return tetrahedron(random_corners(i, count, bench.size));
                                      }};
   std::printf("%u tetrahedra, %u threads\n", count, bench.monitor.threads());
   std::size_t vertices = 0;
@@ -357,13 +393,14 @@ void unite_tetrahedra(std::uint32_t count, const UnionBench& bench, const Tiling
   if (bench.stream) {
     const nef::Stopwatch wall;
     const Stopwatch watch;
-    const TiledPolyhedron united = union_in_tiles(made_when_needed, tiling, nef::kSetsOfARegion, bench.monitor);
+    const TiledPolyhedron united =
+        union_in_tiles(made_when_needed, regions_of_tetrahedra(count, bench.size), tiling, bench.monitor);
     std::printf("in tiles, pieces made when needed: %.2f s CPU, %.2f s\n", watch.seconds(), wall.seconds());
     vertices = united.vertex_count();
     tiles = united.tile_count();
   } else {
     std::vector<Polyhedron> pieces;
-    for (std::uint32_t i = 0; i < count; ++i) pieces.push_back(random_tetrahedron(i, count, bench.size));
+    for (std::uint32_t i = 0; i < count; ++i) pieces.push_back(tetrahedron(random_corners(i, count, bench.size)));
     for (int turn = 0; turn < bench.turns; ++turn) {
       Polyhedron by_size;
       if (bench.with_old_order) {

@@ -36,7 +36,7 @@ Polyhedron grown(const Polyhedron& robot, Growth growth, const Rational& size, c
   return transform(robot, AffineMap::scale({size, size, size}), monitor);
 }
 
-Widest find_widest(const Rational& first, const Rational& precision, bool down,
+Widest find_widest(const Rational& first, const Rational& least, const Rational& precision,
                    const std::function<Verdict(const Rational&)>& verdict) {
   constexpr int kDoublings = 20;
   Widest result;
@@ -61,13 +61,19 @@ Widest find_widest(const Rational& first, const Rational& precision, bool down,
     size = size == 0 ? Rational(1) : Rational(2 * size);
     if (!ask(size)) return result;
   }
-  for (int i = 0; i < kDoublings && !result.low && down; ++i) {
+  while (!result.low && size >= 2 * least) {
     size /= 2;
     if (!ask(size)) return result;
   }
-  while (result.low && result.high && *result.high - *result.low > precision * *result.high) {
+  // However small `high` is, it is far from 0 by its own measure.
+  const auto is_close = [&] {
+    const Rational width = *result.high - *result.low;
+    return width <= precision * *result.high || (*result.low == 0 && width <= least);
+  };
+  while (result.low && result.high && !is_close()) {
     const Rational quarter = (*result.high - *result.low) / 4;
-    if (!ask(simplest_between(*result.low + quarter, *result.high - quarter))) break;
+    const Rational most = *result.low == 0 ? *result.high / 2 : Rational(*result.high - quarter);
+    if (!ask(simplest_between(*result.low + quarter, most))) break;
   }
   return result;
 }

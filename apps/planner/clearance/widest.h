@@ -34,10 +34,11 @@ struct Widest {
   std::size_t questions = 0;
 };
 
-/// Bisection, for a verdict that is never better for larger sizes: until high - low <= precision * high. From size
-/// `first` it goes up by doubling, to 2^20 times that, and down by halving, if `down`, to 2^-20. Sizes are the simplest
-/// rationals near the middle, so that a critical size that is simple is met exactly.
-Widest find_widest(const Rational& first, const Rational& precision, bool down,
+/// Bisection, for a verdict that is never better for larger sizes: until high - low <= precision * high, or, with a
+/// path at 0, until high <= least. From size `first`, which may be 0, it goes up by doubling, to 2^20 times that, and
+/// down by halving, to `least`, which is positive. Sizes are the simplest rationals near the middle, so that a critical
+/// size that is simple is met exactly.
+Widest find_widest(const Rational& first, const Rational& least, const Rational& precision,
                    const std::function<Verdict(const Rational&)>& verdict);
 
 /// A polytope of 30 faces that holds the ball of this radius about the origin and lies in one 1.2 times as large.

@@ -12,6 +12,8 @@
 namespace nef::planner {
 namespace {
 
+constexpr long kSmallestShare = 1L << 20;  // of what it is at first, or of its extent, a size that is tried is no less
+
 Verdict verdict_on(const Scene& scene, const Monitor& monitor) {
   const FreeSpace free(free_positions(scene, monitor));
   const CellId start = free.locate(ExactPoint(*scene.start));
@@ -31,17 +33,28 @@ Verdict turning_verdict_on(const Scene& scene, const TurningLimits& limits, cons
   }
 }
 
+// A robot that does not pass when it is enlarged by so little passes only as it is.
+Rational least_cube(const Scene& scene) {
+  Rational extent = 0;
+  const std::optional<std::array<Rational3, 2>> box = bounding_box(scene.robot);
+  for (std::size_t k = 0; box && k < 3; ++k) extent = std::max(extent, Rational((*box)[1][k] - (*box)[0][k]));
+  for (std::size_t k = 0; extent == 0 && k < 3; ++k) extent = abs((*scene.goal)[k] - (*scene.start)[k]);  // a point
+  return (extent == 0 ? Rational(1) : extent) / kSmallestShare;
+}
+
 }  // namespace
 
 Widest widest_robot(Scene& scene, Growth growth, const WidestLimits& limits, const Monitor& monitor) {
   if (!scene.start || !scene.goal) throw InputError(scene.name + ": the widest robot needs a start and a goal");
   if (limits.precision <= 0) throw InputError("the precision must be positive");
   const Polyhedron robot = scene.robot;
-  Rational smallest = growth == Growth::kBox ? 0 : 1;
+  const Rational first = growth == Growth::kBox ? 0 : 1;
+  const Rational least = growth == Growth::kBox ? least_cube(scene) : Rational(1, kSmallestShare);
+  Rational smallest = first;
   TurningLimits of_turns;
   of_turns.max_cells = limits.max_cells;
   const TimeLimit time(limits.seconds, monitor);
-  Widest widest = find_widest(smallest, limits.precision, growth == Growth::kScale, [&](const Rational& size) {
+  Widest widest = find_widest(first, least, limits.precision, [&](const Rational& size) {
     smallest = std::min(smallest, size);
     if (limits.seconds && time.passed() >= *limits.seconds) return Verdict::kUndecided;
     try {

@@ -6,6 +6,7 @@
 
 #include "apps/planner/clearance/timing.h"
 #include "apps/planner/clearance/widest.h"
+#include "apps/planner/clearance/widest_robot.h"
 #include "apps/planner/path/path.h"
 #include "apps/planner/path/question.h"
 #include "apps/program/reports/exact_json.h"
@@ -29,9 +30,11 @@ TEST_CASE("lists with time stamps have one line for each time") {
   CHECK(distinct_times(times) == Numbers{0, 1, 3});
 }
 
+const Rational kLeast = ratio(1, 1 << 20);
+
 TEST_CASE("bisection: simple critical sizes are met, others are between, what is undecided is said") {
   for (const Rational& critical : {ratio(3, 2), ratio(1, 7), ratio(100, 3), Rational(1)}) {
-    const Widest found = find_widest(1, ratio(1, 1000), true, [&](const Rational& size) {
+    const Widest found = find_widest(1, kLeast, ratio(1, 1000), [&](const Rational& size) {
       return size <= critical ? Verdict::kPath : Verdict::kNone;
     });
     REQUIRE(found.low);
@@ -40,22 +43,31 @@ TEST_CASE("bisection: simple critical sizes are met, others are between, what is
     CHECK(*found.high > critical);
     CHECK(*found.high - *found.low <= ratio(1, 1000) * *found.high);
   }
-  const Widest root = find_widest(1, ratio(1, 1000000), true, [](const Rational& size) {
+  const Widest root = find_widest(1, kLeast, ratio(1, 1000000), [](const Rational& size) {
     return size * size <= 2 ? Verdict::kPath : Verdict::kNone;
   });
   CHECK(*root.low * *root.low < 2);
   CHECK(*root.high * *root.high > 2);
   CHECK(*root.high - *root.low <= ratio(2, 1000000));
-  const Widest never = find_widest(1, ratio(1, 10), true, [](const Rational&) { return Verdict::kNone; });
+  const Widest never = find_widest(1, kLeast, ratio(1, 10), [](const Rational&) { return Verdict::kNone; });
   CHECK_FALSE(never.low);
-  CHECK(never.high);
-  const Widest always = find_widest(0, ratio(1, 10), false, [](const Rational&) { return Verdict::kPath; });
+  CHECK(never.high == kLeast);
+  const Widest always = find_widest(0, kLeast, ratio(1, 10), [](const Rational&) { return Verdict::kPath; });
   CHECK_FALSE(always.high);
   CHECK(always.low);
-  const Widest open = find_widest(1, ratio(1, 10), true, [](const Rational& size) {
+  const Widest open = find_widest(1, kLeast, ratio(1, 10), [](const Rational& size) {
     return size < 1 ? Verdict::kPath : size > 1 ? Verdict::kNone : Verdict::kUndecided;
   });
   CHECK(open.undecided);
+  // Nothing is close to 0 by its own measure.
+  const Widest none = find_widest(0, kLeast, ratio(1, 1000),
+                                  [](const Rational& size) { return size == 0 ? Verdict::kPath : Verdict::kNone; });
+  CHECK(none.low == 0);
+  CHECK(*none.high <= kLeast);
+  CHECK(none.questions < 25);
+  const Widest refused = find_widest(0, kLeast, ratio(1, 1000), [](const Rational&) { return Verdict::kNone; });
+  CHECK_FALSE(refused.low);
+  CHECK(refused.questions == 1);
 }
 
 TEST_CASE("a polytope around a ball") {
@@ -101,6 +113,26 @@ TEST_CASE("paths that keep clear do") {
   }
   Scene scene = gap();
   CHECK_THROWS_AS(keep_clear(scene, 0), InputError);
+}
+
+TEST_CASE("a robot that fits exactly may not be larger") {
+  for (const char* robot : {"box(-1/2,-1/2,-1/2, 1/2,1/2,1/2)", "box(-1/5000,-1/2,-1/2, 1/5000,1/2,1/2)"}) {
+    Scene scene = parse_scene(R"J({"robot": ")J" + std::string(robot) + R"J(", "start": [0,0,0], "goal": [9,0,0],
+      "obstacles": ["box(4,-9,-9, 5,-1/2,9)", "box(4,1/2,-9, 5,9,9)"], "box": [[-1,-5,-1],[10,5,1]]})J",
+                              "", "fits");
+    const Polyhedron as_it_is = scene.robot;
+    const Widest found = widest_robot(scene, Growth::kBox);
+    CHECK(found.low == 0);
+    CHECK(*found.high <= ratio(1, 1 << 20));
+    CHECK(equal(scene.robot, as_it_is));
+  }
+  // A point at a wall, which has no extent.
+  Scene scene = parse_scene(R"J({"robot": "point(0,0,0)", "start": [0,0,0], "goal": [9,0,0],
+    "obstacles": ["box(-1,-9,-9, 0,9,9)"], "box": [[-2,-5,-1],[10,5,1]]})J",
+                            "", "point");
+  const Widest found = widest_robot(scene, Growth::kBox);
+  CHECK(found.low == 0);
+  CHECK(*found.high <= ratio(9, 1 << 20));
 }
 
 TEST_CASE("robots grow by factors only where smaller is easier") {

@@ -73,13 +73,6 @@ def compare(
     return differences, " ".join(f"{build} {seconds:.1f} s" for build, seconds in took.items()), first
 
 
-def program_of(case: paths_corpus.Case) -> str:
-    """The program that a case is about."""
-    others = {command[0] for command in case.commands} - {"nef"}
-    assert len(others) < 2, f"{case.name} is about {sorted(others)}"
-    return others.pop() if others else "nef"
-
-
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__.split("\n\n")[0])
     parser.add_argument("fast", type=pathlib.Path)
@@ -95,7 +88,7 @@ def main() -> int:
     work.mkdir(parents=True, exist_ok=True)
     try:
         cases = paths_corpus.cases(DATA, work / "input", options.seed)
-        cases = [case for case in cases if options.only in case.name and options.program in (None, program_of(case))]
+        cases = [case for case in cases if options.only in case.name and options.program in (None, case.program)]
         differences = []
         codes: collections.Counter[str] = collections.Counter()
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:

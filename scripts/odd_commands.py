@@ -101,7 +101,8 @@ def run(words: list[str], folder: pathlib.Path) -> tuple[int, str]:
 def attempt(number: int, seed: int, programs: pathlib.Path, cases: list[paths_corpus.Case], work: pathlib.Path):
     """The commands of a case up to one that is nearly right; its exit code, and what is wrong with how it ended, if anything is."""
     rng = random.Random(seed * 1_000_003 + number)
-    case = rng.choice(cases)
+    program = rng.choice(sorted({case.program for case in cases}))
+    case = rng.choice([case for case in cases if case.program == program])
     last = rng.randrange(len(case.commands))
     folder = work / str(number)
     folder.mkdir()

@@ -20,6 +20,13 @@ class Case:
     commands: list[list[str]]
     legal: bool = True  # none of them may refuse its input
 
+    @property
+    def program(self) -> str:
+        """The program that it is about."""
+        others = {command[0] for command in self.commands} - {"nef"}
+        assert len(others) < 2, f"{self.name} is about {sorted(others)}"
+        return others.pop() if others else "nef"
+
 
 # Meshes.
 

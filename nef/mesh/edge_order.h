@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
+
+#include "nef/base/threads/group_by.h"
 
 namespace nef {
 
@@ -22,25 +25,16 @@ inline std::uint64_t edge_key(std::uint32_t u, std::uint32_t v) { return pair_ke
 /// One counting pass by the first index, then each group on its own: O(n + count) while groups are small.
 template <typename Item>
 void sort_by_pair(std::vector<Item>& items, std::size_t count) {
-  std::vector<std::uint32_t> begin(count + 1, 0);
-  for (const Item& item : items) ++begin[(item.key >> 32U) + 1];
-  for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
   std::vector<Item> sorted(items.size());
-  std::vector<std::uint32_t> at(begin.begin(), begin.end() - 1);
-  for (const Item& item : items) sorted[at[item.key >> 32U]++] = item;
-  constexpr std::uint32_t kSmall = 24;
+  const std::vector<std::uint32_t> begin = group_by(
+      count,
+      [&items](const auto& visit) {
+        for (const Item& item : items) visit(static_cast<std::uint32_t>(item.key >> 32U), item);
+      },
+      [&sorted](std::uint32_t place, const Item& item) { sorted[place] = item; }, Monitor().on_threads(1));
   for (std::size_t g = 0; g < count; ++g) {
-    if (begin[g + 1] - begin[g] > kSmall) {
-      std::stable_sort(sorted.begin() + begin[g], sorted.begin() + begin[g + 1],
-                       [](const Item& a, const Item& b) { return a.key < b.key; });
-      continue;
-    }
-    for (std::uint32_t i = begin[g] + 1; i < begin[g + 1]; ++i) {
-      const Item item = sorted[i];
-      std::uint32_t j = i;
-      for (; j > begin[g] && item.key < sorted[j - 1].key; --j) sorted[j] = sorted[j - 1];
-      sorted[j] = item;
-    }
+    sort_short(std::span(sorted).subspan(begin[g], begin[g + 1] - begin[g]),
+               [](const Item& a, const Item& b) { return a.key < b.key; });
   }
   items = std::move(sorted);
 }

@@ -12,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <numeric>
 #include <span>
 #include <tuple>
@@ -20,6 +21,7 @@
 
 #include "nef/base/defect.h"
 #include "nef/base/fast_path.h"
+#include "nef/base/threads/group_by.h"
 #include "nef/base/threads/parallel.h"
 #include "nef/base/threads/shared_out.h"
 #include "nef/number/int128.h"
@@ -213,30 +215,18 @@ class Linker {
   std::vector<Named> sorted(std::size_t count, const NumberOf& number_of, std::array<std::size_t, 2> rows) const {
     int shift = 0;  // few keys have groups of several planes
     while ((rows[1] - rows[0]) >> shift > 2 * count + 16) ++shift;
-    const auto group_of = [&](const LineKey& key) { return (row_of(key) - rows[0]) >> shift; };
-    std::vector<std::uint32_t> begin(((rows[1] - rows[0]) >> shift) + 2, 0);
-    for (std::size_t k = 0; k < count; ++k) ++begin[group_of(keys_[number_of(k)]) + 1];
-    for (std::size_t g = 1; g < begin.size(); ++g) begin[g] += begin[g - 1];
     std::vector<Named> result(count);
-    for (std::size_t k = 0; k < count; ++k) {
-      const std::uint32_t i = number_of(k);
-      result[begin[group_of(keys_[i])]++] = {keys_[i], i};
-    }
-    constexpr std::size_t kFew = 24;  // sorted faster by insertion
-    std::size_t first = 0;
-    for (std::size_t g = 0; g + 1 < begin.size(); first = begin[g++]) {
-      const std::size_t last = begin[g];
-      if (last - first > kFew) {
-        std::sort(result.begin() + static_cast<std::ptrdiff_t>(first),
-                  result.begin() + static_cast<std::ptrdiff_t>(last));
-        continue;
-      }
-      for (std::size_t k = first + 1; k < last; ++k) {
-        const Named named = result[k];
-        std::size_t at = k;
-        for (; at > first && named < result[at - 1]; --at) result[at] = result[at - 1];
-        result[at] = named;
-      }
+    const std::vector<std::uint32_t> begin =
+        group_by(((rows[1] - rows[0]) >> shift) + 1,
+                 [&](const auto& visit) {
+                   for (std::size_t k = 0; k < count; ++k) {
+                     const Named named{keys_[number_of(k)], number_of(k)};
+                     visit(static_cast<std::uint32_t>((row_of(named.key) - rows[0]) >> shift), named);
+                   }
+                 },
+                 [&result](std::uint32_t place, const Named& named) { result[place] = named; }, monitor_.on_threads(1));
+    for (std::size_t g = 0; g + 1 < begin.size(); ++g) {
+      sort_short(std::span(result).subspan(begin[g], begin[g + 1] - begin[g]), std::less<>());
     }
     return result;
   }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "nef/base/threads/group_by.h"
 
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 
 #include <random>
+#include <span>
 
 namespace nef::test {
 
@@ -41,6 +43,20 @@ TEST_CASE("Items are grouped by their keys as a stable sort orders them, on any 
   CHECK(group_by(
             0, [](const auto& visit) { visit(0U); }, [](std::uint32_t) {}, Monitor().on_threads(2)) ==
         std::vector<std::uint32_t>{0});
+}
+
+TEST_CASE("Short and long ranges are sorted as a stable sort does it") {
+  using Item = std::array<std::uint32_t, 2>;  // what it is sorted by, and where it was
+  const auto less = [](const Item& a, const Item& b) { return a[0] < b[0]; };
+  std::mt19937 random(5);
+  for (std::uint32_t count = 0; count < 60; ++count) {
+    std::vector<Item> items;
+    for (std::uint32_t i = 0; i < count; ++i) items.push_back({static_cast<std::uint32_t>(random() % 8), i});
+    std::vector<Item> sorted = items;
+    sort_short(std::span(sorted), less);
+    std::stable_sort(items.begin(), items.end(), less);
+    CHECK(sorted == items);
+  }
 }
 
 TEST_CASE("Blocks of work come in their order, on one thread as a single one", "[threads]") {

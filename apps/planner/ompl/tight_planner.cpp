@@ -75,13 +75,7 @@ void TightPlanner::declare() {
   declareParam<int>("digits", this, &TightPlanner::setDigits, &TightPlanner::getDigits, "-1:1:300");
   declareParam<bool>("keep_roadmap", this, &TightPlanner::setKeepRoadmap, &TightPlanner::getKeepRoadmap, "0,1");
   addPlannerProgressProperty("preprocessing REAL", [this] { return std::to_string(preprocessing_); });
-  addPlannerProgressProperty("free cells INTEGER", [this] {
-    std::size_t cells = 0;
-    if (freeSpace_) {
-      for (const Component& component : freeSpace_->components()) cells += component.cells;
-    }
-    return std::to_string(cells);
-  });
+  addPlannerProgressProperty("free cells INTEGER", [this] { return std::to_string(freeCells_); });
 }
 
 void TightPlanner::setup() {
@@ -107,6 +101,9 @@ void TightPlanner::updateFreeSpace(const Monitor& monitor) {
   clearQuery();  // its ends are those of another free space
   knownWay_ = std::exchange(lastWay_, {});
   if (!std::exchange(keepWay_, false)) knownWay_.clear();
+  std::size_t cells = 0;
+  for (const Component& component : present->components()) cells += component.cells;
+  freeCells_ = cells;
   freeSpace_ = std::move(present);
   preprocessing_ = watch.seconds();
 }
@@ -117,6 +114,7 @@ void TightPlanner::clear() {
   freeDataStates();
   if (!keepRoadmap_ && builder_) {
     freeSpace_.reset();
+    freeCells_ = 0;
     setup_ = false;
   }
 }
@@ -225,7 +223,7 @@ ob::PlannerStatus TightPlanner::solve(const ob::PlannerTerminationCondition& ptc
     bool interrupted = false;
     const double roadmap_before = freeSpace_->roadmap_seconds();
     exactPath_ = bestPath(asked, ptc, interrupted);
-    preprocessing_ += freeSpace_->roadmap_seconds() - roadmap_before;
+    preprocessing_ = preprocessing_ + freeSpace_->roadmap_seconds() - roadmap_before;
     if (exactPath_ && !isAccepted(*exactPath_)) return searchAnotherWay(ptc);
     if (exactPath_) {
       lastWay_ = exactPath_->points;

@@ -7,6 +7,7 @@
 #include <ompl/base/goals/GoalSampleableRegion.h>
 #include <ompl/geometric/PathGeometric.h>
 
+#include <atomic>
 #include <functional>
 #include <memory>
 
@@ -129,7 +130,9 @@ class TightPlanner : public ompl::base::Planner {
   bool keepWay_ = false;
   std::vector<Rational3> lastWay_;   // the last answer
   std::vector<Rational3> knownWay_;  // the last one in a free space that held the present one
-  double preprocessing_ = 0;
+  // OMPL's benchmark asks for these from a thread of its own while solve() runs.
+  std::atomic<double> preprocessing_ = 0;
+  std::atomic<std::size_t> freeCells_ = 0;
   std::vector<EndPoint> starts_;
   std::vector<EndPoint> goals_;
   std::optional<ExactPath> exactPath_;

@@ -33,12 +33,13 @@ TurningPlanner::TurningPlanner(const ob::SpaceInformationPtr& si, Scene scene, T
   declareParam<unsigned int>("max_cells", this, &TurningPlanner::setMaxCells, &TurningPlanner::getMaxCells,
                              "1:1:100000");
   declareParam<int>("digits", this, &TurningPlanner::setDigits, &TurningPlanner::getDigits, "-1:1:300");
-  addPlannerProgressProperty("cells INTEGER", [this] { return std::to_string(answer_ ? answer_->looked_at : 0); });
+  addPlannerProgressProperty("cells INTEGER", [this] { return std::to_string(cells_); });
 }
 
 void TurningPlanner::clear() {
   ob::Planner::clear();
   answer_.reset();
+  cells_ = 0;
 }
 
 ob::PlannerStatus TurningPlanner::solve(const ob::PlannerTerminationCondition& ptc) {
@@ -60,6 +61,7 @@ ob::PlannerStatus TurningPlanner::solve(const ob::PlannerTerminationCondition& p
   limits.digits = digits_;
   const StopQuestion question([&ptc] { return ptc.eval(); });
   answer_ = find_turning_path(scene_, question_, limits, question.monitor());
+  cells_ = answer_->looked_at;
   switch (answer_->status) {
     case TurningAnswer::Status::kInvalidStart:
       return ob::PlannerStatus::INVALID_START;

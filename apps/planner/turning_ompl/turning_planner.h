@@ -6,6 +6,8 @@
 #include <ompl/base/Planner.h>
 #include <ompl/base/SolutionNonExistenceProof.h>
 
+#include <atomic>
+#include <cstddef>
 #include <iosfwd>
 #include <memory>
 #include <optional>
@@ -65,6 +67,7 @@ class TurningPlanner : public ompl::base::Planner {
   unsigned int maxCells_ = 2000;
   std::optional<unsigned> digits_;
   std::optional<TurningAnswer> answer_;
+  std::atomic<std::size_t> cells_ = 0;  // of the answer; OMPL's benchmark asks from a thread of its own during solve()
 };
 
 }  // namespace nef::planner

@@ -11,8 +11,10 @@
 #include <ompl/base/PlannerDataStorage.h>
 #endif
 
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <sstream>
+#include <thread>
 
 #include "apps/planner/command/runs/ompl_runs.h"
 #include "apps/planner/ompl/cell_sampler.h"
@@ -60,6 +62,32 @@ TEST_CASE("the planner says what it can do") {
   CHECK_FALSE(planner.getSpecs().directed);
   CHECK(planner.getPlannerProgressProperties().count("preprocessing REAL") == 1);
   CHECK(planner.getPlannerProgressProperties().count("free cells INTEGER") == 1);
+}
+
+TEST_CASE("how far a planner has come may be asked while it solves, as OMPL's benchmark does", "[threads]") {
+  const World world("s1_tight_hole");
+  TightPlanner planner(world.si, free_space_builder(world.problem.scene()));
+  planner.setKeepRoadmap(false);
+  planner.setProblemDefinition(world.definition);
+  const auto& progress = planner.getPlannerProgressProperties();
+  for (int round = 0; round < 3; ++round) {
+    std::atomic<bool> is_done = false;
+    std::size_t told = 0;
+    std::thread watcher([&] {
+      while (!is_done) {
+        for (const auto& property : progress) told += property.second().size();
+      }
+    });
+    const ob::PlannerStatus status = planner.solve(30.0);
+    is_done = true;
+    watcher.join();
+    CHECK(told > 0);
+    CHECK(status == ob::PlannerStatus::EXACT_SOLUTION);
+    CHECK(std::stoul(progress.at("free cells INTEGER")()) > 0);
+    planner.clear();
+    CHECK(progress.at("free cells INTEGER")() == "0");
+    world.definition->clearSolutionPaths();
+  }
 }
 
 TEST_CASE("declared parameters set what they name") {

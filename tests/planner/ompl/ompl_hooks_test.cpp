@@ -90,6 +90,19 @@ TEST_CASE("how far a planner has come may be asked while it solves, as OMPL's be
   }
 }
 
+TEST_CASE("BIT* is not asked for counts that it makes of tables which it changes") {
+  const World world("s1_tight_hole");
+  for (const char* name : {"BITstar", "ABITstar"}) {
+    const ob::PlannerPtr planner = make_ompl_planner(name, world.si);
+    const auto& progress = planner->getPlannerProgressProperties();
+    CHECK_FALSE(progress.empty());
+    for (const auto& [property, value] : progress) {
+      CAPTURE(name, property);
+      CHECK(property.find("current") == std::string::npos);
+    }
+  }
+}
+
 TEST_CASE("declared parameters set what they name") {
   const World world("s14_two_ways");
   TightPlanner planner(world.si);

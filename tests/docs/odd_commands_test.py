@@ -40,12 +40,14 @@ class OddCommands(unittest.TestCase):
                 path.chmod(path.stat().st_mode | stat.S_IXUSR)
             limit, odd_commands.LIMIT = odd_commands.LIMIT, 1
             self.addCleanup(setattr, odd_commands, "LIMIT", limit)
-            for program, found in (("crash", "exit code"), ("hang", "not done in"), ("good", None)):
-                case = paths_corpus.Case(program, [[program, "a", "b"]])
-                with mock.patch.object(odd_commands, "options_of", lambda *_: []):
-                    code, wrong = odd_commands.attempt(1, 1, folder, [case], folder)
+            as_it_is = mock.patch.object(odd_commands, "nearly", lambda _, command, __: command)
+            for program, word, found in (("crash", "a", "exit code"), ("hang", "a", "not done in"), ("good", "a", None),
+                                         ("hang", "--time", None)):  # it was asked to take long
+                case = paths_corpus.Case(program, [[program, word, "9"]])
+                with as_it_is, mock.patch.object(odd_commands, "options_of", lambda *_: []):
+                    _, wrong = odd_commands.attempt(1, 1, folder, [case], folder)
                 if found is None:
-                    self.assertEqual((code, wrong), (0, None))
+                    self.assertIsNone(wrong)
                 else:
                     self.assertIn(found, wrong)
 

@@ -31,7 +31,7 @@ void sort_by_pair(std::vector<Item>& items, std::size_t count) {
       [&items](const auto& visit) {
         for (const Item& item : items) visit(static_cast<std::uint32_t>(item.key >> 32U), item);
       },
-      [&sorted](std::uint32_t place, const Item& item) { sorted[place] = item; }, Monitor().on_threads(1));
+      [&sorted](std::uint32_t place, const Item& item) { sorted[place] = item; }, Monitor());
   for (std::size_t g = 0; g < count; ++g) {
     sort_short(std::span(sorted).subspan(begin[g], begin[g + 1] - begin[g]),
                [](const Item& a, const Item& b) { return a.key < b.key; });

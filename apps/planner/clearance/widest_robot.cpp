@@ -12,7 +12,8 @@
 namespace nef::planner {
 namespace {
 
-constexpr long kSmallestShare = 1L << 20;  // of what it is at first, or of its extent, a size that is tried is no less
+constexpr long kSmallestShare =
+    1L << 20;  // no size below 1 / this of the first one, or of the robot's extent, is tried
 
 Verdict verdict_on(const Scene& scene, const Monitor& monitor) {
   const FreeSpace free(free_positions(scene, monitor));

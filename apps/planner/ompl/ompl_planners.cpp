@@ -56,8 +56,9 @@ ompl::base::PlannerPtr make(const ompl::base::SpaceInformationPtr& si) {
   return std::make_shared<Planner>(si);
 }
 
-// OMPL's benchmark asks planners from a thread of its own while they solve. Before OMPL 1.6 BIT* counts its samples and
-// vertices then by tables that it changes, and crashes at times (ompl/ompl, issue 779). It is asked for neither.
+// OMPL's benchmark asks planners for their progress, from a thread of its own, while they solve. Before OMPL 1.6, BIT*
+// then counts its samples and vertices in tables that it is changing, and crashes at times (ompl/ompl, issue 779). It
+// is asked for neither number.
 template <typename Planner>
 class NotCounted : public Planner {
  public:

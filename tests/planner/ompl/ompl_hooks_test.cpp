@@ -74,9 +74,9 @@ TEST_CASE("how far a planner has come may be asked while it solves, as OMPL's be
     std::atomic<bool> is_done = false;
     std::size_t told = 0;
     std::thread watcher([&] {
-      while (!is_done) {
+      do {
         for (const auto& property : progress) told += property.second().size();
-      }
+      } while (!is_done);
     });
     const ob::PlannerStatus status = planner.solve(30.0);
     is_done = true;

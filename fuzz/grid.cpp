@@ -97,4 +97,14 @@ GridPolyhedron random_grid_set(Choices& choices, int width, bool closed) {
   return result;
 }
 
+void label_some_sets(Choices& choices, GridPolyhedron& set) {
+  if (!choices.one_in(4)) return;
+  GridPolyhedron part = random_grid_set(choices, set.cells.high() / 2, false);
+  set.set = overlay(set.set, part.set, [](LabelId x, LabelId y) { return static_cast<LabelId>(x == 0 ? 0 : 2 - y); });
+  part = random_grid_set(choices, set.cells.high() / 2, false);
+  set.set =
+      overlay(set.set, part.set, [](LabelId x, LabelId y) { return static_cast<LabelId>(x == 0 ? 0 : x + 2 * y); });
+  set.text += " with labels";
+}
+
 }  // namespace nef::fuzz

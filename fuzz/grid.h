@@ -66,4 +66,8 @@ struct GridPolyhedron {
 /// Random boxes, united, taken away or exchanged, within 0 .. width in all directions; never empty.
 GridPolyhedron random_grid_set(Choices& choices, int width, bool closed);
 
+/// Gives labels other than 1 to random parts of one of four sets, which stay the same points. What that was is in
+/// `text`.
+void label_some_sets(Choices& choices, GridPolyhedron& set);
+
 }  // namespace nef::fuzz

@@ -185,16 +185,16 @@ const Complex& Polyhedron::complex() const { return Body::of(body()).complex; }
 bool Polyhedron::is_empty() const { return complex().vertex_count() == 0 && complex().volumes[kOuterVolume].mark == 0; }
 
 bool Polyhedron::is_everything() const {
-  return complex().vertex_count() == 0 && complex().volumes[kOuterVolume].mark == 1;
+  return complex().vertex_count() == 0 && complex().volumes[kOuterVolume].mark != 0;
 }
 
 bool Polyhedron::is_bounded() const { return complex().volumes[kOuterVolume].mark == 0; }
 
-bool Polyhedron::is_open() const { return is_open_set(complex()); }
+bool Polyhedron::is_open() const { return is_open_set(without_labels(*this).complex()); }
 
-bool Polyhedron::is_closed() const { return is_closed_set(complex()); }
+bool Polyhedron::is_closed() const { return is_closed_set(without_labels(*this).complex()); }
 
-bool Polyhedron::is_regular() const { return is_regular_set(complex()); }
+bool Polyhedron::is_regular() const { return is_regular_set(without_labels(*this).complex()); }
 
 const QueryStructure& Polyhedron::queries() const {
   const Body& own = Body::of(body());

@@ -55,7 +55,7 @@ class Polyhedron {
   /// The complex out of a set that is given up: moved if no other set shares it, else copied.
   [[nodiscard]] Complex take_complex() &&;
 
-  /// The representation is unique, so these are O(1).
+  /// The representation is unique, so these are O(1). The set is that of the points whose mark is not 0.
   [[nodiscard]] bool is_empty() const;
   [[nodiscard]] bool is_everything() const;
   /// True if the set (not its complement) fits into some ball.
@@ -99,6 +99,11 @@ Polyhedron intersect_all(std::span<const Polyhedron> sets, const Monitor& monito
 /// With several threads f is called by any of them, one at a time.
 Polyhedron overlay(const Polyhedron& a, const Polyhedron& b, const std::function<LabelId(LabelId, LabelId)>& f,
                    const Monitor& monitor = {});
+
+/// The points whose mark is not 0, with the marks 0 and 1. O(1) if there are no other marks, else as a Boolean. This is
+/// the set that all operations mean, whatever the marks; only `overlay`, `transform`, `split` and `component_of` keep
+/// them, and questions about items (`locate`, `counts`, `surface_area`) are about the complex as it is.
+Polyhedron without_labels(const Polyhedron& a, const Monitor& monitor = {});
 
 // Unary operations: O(n).
 Polyhedron complement(const Polyhedron& a);

@@ -53,30 +53,30 @@ Polyhedron overlay(const Polyhedron& a, const Polyhedron& b, const Function& f, 
 }
 
 Polyhedron unite(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor) {
-  if (a.is_empty() || b.is_everything()) return b;
-  if (b.is_empty() || a.is_everything()) return a;
+  if (a.is_empty() || b.is_everything()) return without_labels(b, monitor);
+  if (b.is_empty() || a.is_everything()) return without_labels(a, monitor);
   return overlay(
       a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 || y != 0); }, monitor);
 }
 
 Polyhedron intersect(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor) {
-  if (a.is_empty() || b.is_everything()) return a;
-  if (b.is_empty() || a.is_everything()) return b;
+  if (a.is_empty() || b.is_everything()) return without_labels(a, monitor);
+  if (b.is_empty() || a.is_everything()) return without_labels(b, monitor);
   if (a.is_bounded() && b.is_bounded() && apart(a, b)) return {};
   return overlay(
       a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 && y != 0); }, monitor);
 }
 
 Polyhedron subtract(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor) {
-  if (a.is_empty() || b.is_empty()) return a;
-  if (a.is_bounded() && b.is_bounded() && apart(a, b)) return a;
+  if (a.is_empty() || b.is_empty()) return without_labels(a, monitor);
+  if (a.is_bounded() && b.is_bounded() && apart(a, b)) return without_labels(a, monitor);
   return overlay(
       a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>(x != 0 && y == 0); }, monitor);
 }
 
 Polyhedron symmetric_difference(const Polyhedron& a, const Polyhedron& b, const Monitor& monitor) {
-  if (a.is_empty()) return b;
-  if (b.is_empty()) return a;
+  if (a.is_empty()) return without_labels(b, monitor);
+  if (b.is_empty()) return without_labels(a, monitor);
   return overlay(
       a, b, [](LabelId x, LabelId y) { return static_cast<LabelId>((x != 0) != (y != 0)); }, monitor);
 }
@@ -102,7 +102,7 @@ Polyhedron intersect_all(std::span<const Polyhedron> sets, const Monitor& monito
     next.insert(next.end(), left.begin() + static_cast<std::ptrdiff_t>(2 * pairs), left.end());
     left = std::move(next);
   }
-  return left.front();
+  return without_labels(left.front(), monitor);
 }
 
 }  // namespace nef

@@ -67,11 +67,11 @@ Polyhedron unite_all(std::span<const Polyhedron> sets, const Monitor& monitor) {
   std::vector<Polyhedron> left;
   left.reserve(sets.size());
   for (const Polyhedron& set : sets) {
-    if (set.is_everything()) return set;
+    if (set.is_everything()) return without_labels(set, monitor);
     if (!set.is_empty()) left.push_back(set);
   }
-  if (left.empty()) return sets.empty() ? Polyhedron() : sets.front();
-  if (left.size() == 1) return left.front();
+  if (left.empty()) return {};
+  if (left.size() == 1) return without_labels(left.front(), monitor);
   std::size_t vertices = 0;
   for (const Polyhedron& set : left) vertices += set.complex().vertex_count();
   constexpr std::size_t kFewSets = 8;

@@ -105,8 +105,14 @@ class MarkChanger {
 
 }  // namespace
 
+Polyhedron without_labels(const Polyhedron& a, const Monitor& monitor) {
+  if (a.complex().label_count <= 2) return a;
+  return overlay(
+      a, Polyhedron(), [](LabelId x, LabelId) { return static_cast<LabelId>(x != 0 ? 1 : 0); }, monitor);
+}
+
 Polyhedron complement(const Polyhedron& a) {
-  Complex c = a.complex();
+  Complex c = without_labels(a).take_complex();
   // Different marks stay different, so nothing but the marks changes.
   for_each_mark(c, [](LabelId& mark) {
     if (mark != kOutside) mark = mark == 0 ? 1 : 0;
@@ -115,15 +121,15 @@ Polyhedron complement(const Polyhedron& a) {
 }
 
 Polyhedron interior(const Polyhedron& a, const Monitor& monitor) {
-  return Polyhedron(MarkChanger(a.complex(), Lower::kClear, Volumes::kKeep, monitor).run());
+  return Polyhedron(MarkChanger(without_labels(a, monitor).complex(), Lower::kClear, Volumes::kKeep, monitor).run());
 }
 
 Polyhedron closure(const Polyhedron& a, const Monitor& monitor) {
-  return Polyhedron(MarkChanger(a.complex(), Lower::kSelect, Volumes::kKeep, monitor).run());
+  return Polyhedron(MarkChanger(without_labels(a, monitor).complex(), Lower::kSelect, Volumes::kKeep, monitor).run());
 }
 
 Polyhedron boundary(const Polyhedron& a, const Monitor& monitor) {
-  return Polyhedron(MarkChanger(a.complex(), Lower::kSelect, Volumes::kClear, monitor).run());
+  return Polyhedron(MarkChanger(without_labels(a, monitor).complex(), Lower::kSelect, Volumes::kClear, monitor).run());
 }
 
 Polyhedron exterior(const Polyhedron& a, const Monitor& monitor) { return interior(complement(a), monitor); }

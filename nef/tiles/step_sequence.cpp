@@ -123,7 +123,8 @@ void StepSequence::choose(const Monitor& monitor) {
     if (static_cast<double>(seen_) < kEvidence + kSmallSetSteps / own) return;
     if (average_ * left < kCutAndGlue * kMargin * own) return;
     // One tile, which steps cut where they touch it: so none of them pays for all.
-    tiled_.emplace(tile_leaf(in_two_marks(std::exchange(plain_, Polyhedron()), monitor), tiling_.store, true), tiling_);
+    tiled_.emplace(tile_leaf(without_labels(std::exchange(plain_, Polyhedron()), monitor), tiling_.store, true),
+                   tiling_);
   }
 }
 

@@ -22,12 +22,6 @@ TileRef TileRef::complement() const {
   return {node, !complemented};
 }
 
-Polyhedron in_two_marks(const Polyhedron& set, const Monitor& monitor) {
-  if (set.complex().label_count <= 2) return set;
-  const auto one_mark = [](LabelId x, LabelId) { return static_cast<LabelId>(x != 0 ? 1 : 0); };
-  return overlay(set, Polyhedron(), one_mark, monitor);
-}
-
 bool has_boundary(const SphereMapView& map) {
   // The centre of a point on the border of a region has the mark of the set there.
   const auto differs = [&map](const auto& items) {

@@ -50,9 +50,6 @@ struct TileNode {
   [[nodiscard]] Polyhedron set() const { return stored ? stored->load() : in_memory; }
 };
 
-/// The set with the marks 0 and 1 only: all others become 1.
-Polyhedron in_two_marks(const Polyhedron& set, const Monitor& monitor);
-
 /// What of a complex tells whether and where it is cut. Needs its sphere maps only.
 struct TileMeasure {
   Box box;              ///< of the vertices where the set has boundary

@@ -32,7 +32,7 @@ TiledPolyhedron combine(const TiledPolyhedron& a, const TiledPolyhedron& b, cons
 
 // A plain operand comes as one leaf, and is cut only where that pays.
 TiledPolyhedron combine(const TiledPolyhedron& a, const Polyhedron& b, const TruthTable& f, const Monitor& monitor) {
-  return {overlay_trees(a.tree(), tile_leaf(in_two_marks(b, monitor), nullptr), f, a.tiling(), monitor), a.tiling()};
+  return {overlay_trees(a.tree(), tile_leaf(without_labels(b, monitor), nullptr), f, a.tiling(), monitor), a.tiling()};
 }
 
 TiledPolyhedron by_gluing(const TiledPolyhedron& a, Polyhedron (*change)(const Polyhedron&, const Monitor&),
@@ -77,7 +77,7 @@ TileRef transformed(const TileRef& tree, const AffineMap& map, const std::array<
 TiledPolyhedron::TiledPolyhedron() : TiledPolyhedron(uniform_leaf(0), Tiling{}) {}
 
 TiledPolyhedron::TiledPolyhedron(const Polyhedron& set, const Tiling& tiling, const Monitor& monitor)
-    : TiledPolyhedron(subdivided(in_two_marks(set, monitor), tiling, monitor), tiling) {}
+    : TiledPolyhedron(subdivided(without_labels(set, monitor), tiling, monitor), tiling) {}
 
 TiledPolyhedron::TiledPolyhedron(const Polyhedron& set)
     : TiledPolyhedron(set, tiling_for(set.complex().vertex_count())) {}

@@ -266,7 +266,8 @@ corners: around, from 3 to 100000.)");
   m.def("overlay", &overlay_labels, py::arg("a"), py::arg("b"), py::arg("function"),
         R"(The set whose points carry the label function(label in a, label in b).
 
-Labels are ints from 0; an ordinary set has 1 where it is and 0 elsewhere. The function is called once for each pair of
+Labels are ints from 0; an ordinary set has 1 where it is and 0 elsewhere. Whatever else takes a set takes the points whose
+label is not 0. The function is called once for each pair of
 labels, also for pairs that occur nowhere.)");
 }
 

@@ -92,6 +92,11 @@ def _shown(value: Any) -> str:
     return f"{text} ({type(value).__name__})"
 
 
+def wrong_type(name: str, kind: str, value: Any) -> str:
+    """What is said of a value that is not of the type that pybind11 calls `kind`."""
+    return f"{name} must be {_named(kind)}, not {_shown(value)}"
+
+
 def _place(value: Any, function: str, name: str) -> str:
     """ "function(): name", where a value was given. Cores whose parameters have no names are called by functions of this
     package, where the value has one."""
@@ -136,7 +141,7 @@ def _one_complaint(function: str, parameters: List[Parameter], arguments: tuple,
     for parameter in parameters:
         if parameter.name in given and not _fits(given[parameter.name], parameter.type):
             value = given[parameter.name]
-            return f"{_place(value, function, parameter.name)} must be {_named(parameter.type)}, not {_shown(value)}"
+            return wrong_type(_place(value, function, parameter.name), parameter.type, value)
     shown = [_shown(value) for value in arguments] + [f"{name}={_shown(value)}" for name, value in keywords.items()]
     return f"{function}() does not take these values: {', '.join(shown)}; it is {usage}"
 

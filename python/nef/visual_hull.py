@@ -260,7 +260,7 @@ def read(path: Any, *, box: Any = None, tolerance: float = 0, outer: bool = Fals
                        unknown_beyond=unknown_beyond, images=None if images is None else os.fspath(images), mask=mask,
                        threshold=threshold, channel=channel, invert=invert, way=way, repair_masks=repair_masks, refine=refine, suspects=suspects, drop_suspects=drop_suspects,
                        at_least=at_least, largest=largest, verify=verify, threads=threads)
-    table = None if turntable is None else (turntable, intrinsics, radius, height)
+    table = None if turntable is None else dict(turntable=turntable, intrinsics=intrinsics, radius=radius, height=height)
     try:
         return _hull(_visual_hull.from_file(os.fspath(path), options, matrices or "", up or "", table, [str(name) for name in without], texture, progress))
     except InputError as error:

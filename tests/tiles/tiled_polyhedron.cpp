@@ -97,7 +97,7 @@ TEST_CASE("a tile that nobody has cut is cut where a step touches it") {
   for_all_cut_pairs("uncut", 2, [&](const Polyhedron& a, const Polyhedron& b, const Cuts&, const Cuts&) {
     const Polyhedron whole = unite(a, far);
     const Tiling tiling{*rc::gen::inRange<std::size_t>(16, 60)};
-    const TiledPolyhedron x(tile_leaf(in_two_marks(whole, {}), nullptr, true), tiling);
+    const TiledPolyhedron x(tile_leaf(without_labels(whole, {}), nullptr, true), tiling);
     glued_is(unite(x, b), unite(whole, b), "A + B");
     glued_is(intersect(x, b), intersect(whole, b), "A * B");
     glued_is(subtract(complement(x), b), subtract(complement(whole), b), "!A - B");

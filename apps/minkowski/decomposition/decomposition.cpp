@@ -25,7 +25,8 @@ void require_bounded(const Polyhedron& a, const char* what) {
 
 std::vector<ConvexCell> decompose(const Polyhedron& a, const Monitor& monitor) {
   require_bounded(a, "the set to decompose");
-  return decompose_along(a, wall_axis(a.complex(), monitor), monitor);
+  const Polyhedron set = without_labels(a, monitor);
+  return decompose_along(set, wall_axis(set.complex(), monitor), monitor);
 }
 
 std::vector<ConvexCell> decompose_along(const Polyhedron& a, std::size_t axis, const Monitor& monitor) {
@@ -98,12 +99,12 @@ bool is_convex_set(const Polyhedron& a, const Monitor& monitor) {
 
 bool is_convex(const Polyhedron& a, const Monitor& monitor) {
   require_bounded(a, "the set");
-  if (a.is_empty() || is_point(a)) return true;
-  // A volume that takes more than a half-turn about an edge of a set with one label is not all around it.
-  const Complex& c = a.complex();
-  if (c.label_count == 2 && !reflex_edges(c, 0, monitor).empty()) return false;
+  const Polyhedron set = without_labels(a, monitor);
+  if (set.is_empty() || is_point(set)) return true;
+  // A volume that takes more than a half-turn about an edge is not all around it.
+  if (!reflex_edges(set.complex(), 0, monitor).empty()) return false;
   // A closed set with reflex edges would be cut into several solids; asking is cheaper than cutting.
-  return is_convex_set(a, monitor);
+  return is_convex_set(set, monitor);
 }
 
 }  // namespace nef::minkowski

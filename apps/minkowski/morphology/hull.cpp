@@ -45,7 +45,7 @@ Polyhedron unbounded_hull(const Polyhedron& a, const Monitor& monitor) {
 Polyhedron hull(const Polyhedron& a, const Monitor& monitor) {
   if (a.is_empty()) return a;
   if (is_cobounded(a)) return Polyhedron::everything();
-  if (!a.is_bounded()) return unbounded_hull(a, monitor);
+  if (!a.is_bounded()) return unbounded_hull(without_labels(a, monitor), monitor);
   const ConvexCell cell = hull_cell(a.complex().points.rationals(), monitor);
   if (cell.dimension == 0 || a.is_closed()) return to_polyhedron(cell, monitor);
   if (cell.dimension == 3 && a.is_open()) return to_polyhedron(opened(cell), monitor);

@@ -23,7 +23,7 @@ Polyhedron closing(const Polyhedron& a, const Polyhedron& b, const MinkowskiOpti
 
 Polyhedron offset(const Polyhedron& a, const Rational& radius, int splits, Side side, const MinkowskiOptions& options,
                   MinkowskiReport* report) {
-  if (sgn(radius) == 0) return a;
+  if (sgn(radius) == 0) return without_labels(a, options.monitor);
   const Side of_ball = ball_side(sgn(radius), side);
   const Polyhedron ball =
       to_polyhedron(ball_approximation(abs(radius), splits, of_ball, options.monitor).cell, options.monitor);

@@ -110,7 +110,7 @@ Polyhedron minkowski_sum(const Polyhedron& a, const Polyhedron& b, const Minkows
   MinkowskiReport unused;
   MinkowskiReport& r = report != nullptr ? *report : unused;
   const Stopwatch watch;
-  Polyhedron sum = any_sum(a, b, options, r);
+  Polyhedron sum = any_sum(without_labels(a, options.monitor), without_labels(b, options.monitor), options, r);
   r.seconds_total += watch.seconds();
   return sum;
 }

@@ -250,8 +250,7 @@ Scene scene_of(const Arguments& a) {
       throw nef::InputError(
           "--turntable: the camera is missing: give --K f,cx,cy, --radius R and --height H, or --refine to find it");
     }
-    scene = unknown ? guess_turntable(std::abs(*a.turntable))
-                    : make_turntable({*a.turntable, a.intrinsics, *a.radius, a.height});
+    scene = unknown ? guess_turntable(*a.turntable) : make_turntable({*a.turntable, a.intrinsics, *a.radius, a.height});
   } else {
     scene = read_scene(a.scene, {a.matrices});
   }

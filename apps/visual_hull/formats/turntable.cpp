@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 
 #include "apps/visual_hull/scene/pose.h"
 #include "nef/base/error.h"
@@ -28,10 +30,13 @@ Lens lens_of(const std::vector<double>& k) {
   return lens;
 }
 
+// Of a turn; the least int has no absolute value.
+int images_of(int count) { return std::abs(std::max(count, -std::numeric_limits<int>::max())); }
+
 }  // namespace
 
 Scene make_turntable(const Turntable& turntable) {
-  const int count = std::abs(turntable.count);
+  const int count = images_of(turntable.count);
   if (count < 2 || count > 100000)
     throw nef::InputError("--turntable N: from 2 to 100000 images, negative for clockwise");
   if (!(turntable.radius > 0)) throw nef::InputError("--radius: the distance of the camera from the axis is positive");
@@ -54,7 +59,8 @@ Scene make_turntable(const Turntable& turntable) {
   return scene;
 }
 
-Scene guess_turntable(int count) {
+Scene guess_turntable(int given) {
+  const int count = images_of(given);
   if (count < 5 || count > 100000) {
     throw nef::InputError("--turntable N without --K: from 5 to 100000 images, of one full turn in equal steps");
   }

@@ -19,7 +19,8 @@ struct Turntable {
 Scene make_turntable(const Turntable& turntable);
 
 /// The same of which only the number of images is known, and not even the sense of the rotation: its cameras stand for
-/// those that Options::refine finds (Scene::guessed). Throws InputError for less than five or more than 100000.
-Scene guess_turntable(int count);
+/// those that Options::refine finds (Scene::guessed). `given` is as Turntable::count. Throws InputError for less than
+/// five images or more than 100000.
+Scene guess_turntable(int given);
 
 }  // namespace nef::visual_hull

@@ -200,10 +200,12 @@ class PlanningCase {
     Choices& choices = case_.choices();
     const int width = choices.between(1, 2);
     robot_ = random_grid_set(choices, width, true);
+    label_some_sets(choices, *robot_);
     case_.tell("robot " + robot_->text);
     const std::uint32_t count = 1 + choices.below(3);
     for (std::uint32_t i = 0; i < count; ++i) {
       obstacles_.push_back(random_grid_set(choices, 3, true));
+      label_some_sets(choices, obstacles_.back());
       case_.tell("obstacle " + obstacles_.back().text);
       scene_.obstacles.push_back(obstacles_.back().set);
       scene_.obstacle_names.push_back("obstacle " + std::to_string(i));

@@ -24,8 +24,10 @@ AffineMap random_shear(Choices& choices) {
 
 void fuzz_sums(const Case& the_case) {
   Choices& choices = the_case.choices();
-  const GridPolyhedron a = random_grid_set(choices, 3, false);
-  const GridPolyhedron b = random_grid_set(choices, 2, false);
+  GridPolyhedron a = random_grid_set(choices, 3, false);
+  GridPolyhedron b = random_grid_set(choices, 2, false);
+  label_some_sets(choices, a);
+  label_some_sets(choices, b);
   const AffineMap map = random_shear(choices);
   minkowski::MinkowskiOptions options;
   options.strategy = static_cast<minkowski::UnionStrategy>(choices.below(3));

@@ -335,7 +335,7 @@ TileRef subdivided(const Polyhedron& set, const Tiling& tiling, const Monitor& m
 }
 
 TileRef tiles_in_region(const Polyhedron& set, const Region& region, const Tiling& tiling, const Monitor& monitor) {
-  const Polyhedron all = in_two_marks(set, monitor);
+  const Polyhedron all = without_labels(set, monitor);
   if (region.unbounded()) return subdivided(all, tiling, monitor);
   if (all.is_empty() || all.is_everything()) return uniform_leaf(all.is_empty() ? 0 : 1);
   Cutter cutter(all.complex().planes, tiling, monitor);

@@ -174,15 +174,14 @@ py::tuple check_linkage(const std::shared_ptr<plan::LinkageChecker>& checker, co
   }));
 }
 
-// (status, verdicts on motions, the first motion that collides or None). `seconds` and
-// `progress` may be None.
+// (status, verdicts on motions, the first motion that collides or None).
 py::tuple certify_linkage(const std::shared_ptr<plan::LinkageChecker>& checker,
-                          const std::vector<std::vector<double>>& path, const py::object& seconds,
+                          const std::vector<std::vector<double>>& path, const std::optional<double>& seconds,
                           const py::object& progress) {
   const ProgressFunction listener(progress);
-  const plan::CertifiedLinkagePath found = call(kSmallCall, [=, time = time_of(seconds)](const Monitor& monitor) {
+  const plan::CertifiedLinkagePath found = call(kSmallCall, [=](const Monitor& monitor) {
     return certified_in_time<plan::CertifiedLinkagePath>(
-        time, listener, monitor, [&](const Monitor& limited) { return plan::certify(*checker, path, {}, limited); });
+        seconds, listener, monitor, [&](const Monitor& limited) { return plan::certify(*checker, path, {}, limited); });
   });
   py::list motions;
   for (const plan::LinkageVerdict& verdict : found.motions) motions.append(told(verdict));

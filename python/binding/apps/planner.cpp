@@ -122,14 +122,14 @@ struct TurningProofOfScene {
 };
 
 // A question about a robot that turns; the scene says where it starts and how it is turned there.
-py::dict solve_turning(const plan::Scene& scene, std::size_t max_cells, const py::object& seconds,
-                       const py::object& digits) {
+py::dict solve_turning(const plan::Scene& scene, std::size_t max_cells, const std::optional<double>& seconds,
+                       const std::optional<unsigned>& digits) {
   plan::TurningLimits limits;
   limits.max_cells = max_cells;
-  if (!digits.is_none()) limits.digits = digits.cast<unsigned>();
+  if (digits) limits.digits = *digits;
   const plan::TurningQuestion question = plan::question_of(scene);
-  plan::TurningAnswer answer = call(kSmallCall, [=, time = time_of(seconds)](const Monitor& monitor) {
-    const TimeLimit limit(time, monitor);
+  plan::TurningAnswer answer = call(kSmallCall, [=](const Monitor& monitor) {
+    const TimeLimit limit(seconds, monitor);
     return plan::find_turning_path(scene, question, limits, limit.monitor());
   });
   py::dict result;
@@ -161,11 +161,11 @@ py::dict solve_turning(const plan::Scene& scene, std::size_t max_cells, const py
 }
 
 // A question about a robot that turns freely, from the start of the scene to its goal.
-py::dict solve_rigid(const plan::Scene& scene, const py::object& max_cells, const py::object& seconds) {
-  const auto limits = plan::RigidLimits::of(
-      max_cells.is_none() ? std::nullopt : std::optional(max_cells.cast<std::size_t>()), !seconds.is_none());
-  const plan::RigidAnswer answer = call(kSmallCall, [=, time = time_of(seconds)](const Monitor& monitor) {
-    const TimeLimit limit(time, monitor);
+py::dict solve_rigid(const plan::Scene& scene, const std::optional<std::size_t>& max_cells,
+                     const std::optional<double>& seconds) {
+  const auto limits = plan::RigidLimits::of(max_cells, seconds.has_value());
+  const plan::RigidAnswer answer = call(kSmallCall, [=](const Monitor& monitor) {
+    const TimeLimit limit(seconds, monitor);
     const auto checker = plan::MotionChecker::of_scene(scene, monitor);
     plan::RigidAnswer found = plan::find_rigid_path(scene, checker, limits, limit.monitor());
     monitor.check_interruption();
@@ -236,8 +236,8 @@ plan::Scene kept_clear(const plan::Scene& scene, py::handle distance) {
 
 // (low, high, undecided, the robot of the size low) for a scene with its ends.
 py::tuple widest(const plan::Scene& scene, bool box, py::handle precision, std::size_t max_cells,
-                 const py::object& seconds) {
-  const plan::WidestLimits limits{to_rational(precision), max_cells, time_of(seconds)};
+                 const std::optional<double>& seconds) {
+  const plan::WidestLimits limits{to_rational(precision), max_cells, seconds};
   const auto growth = box ? plan::Growth::kBox : plan::Growth::kScale;
   const auto found = call(kSmallCall, [scene = scene, growth, limits](const Monitor& monitor) mutable {
     plan::Widest interval = plan::widest_robot(scene, growth, limits, monitor);
@@ -273,15 +273,14 @@ std::vector<plan::RigidPose> poses_of(const py::sequence& path) {
   return poses;
 }
 
-// (status, collision, undecided motions, touching motions) of such a path. `seconds` and
-// `progress` may be None.
-py::tuple certify(const plan::Scene& scene, const py::sequence& path, const py::object& seconds,
+// (status, collision, undecided motions, touching motions) of such a path.
+py::tuple certify(const plan::Scene& scene, const py::sequence& path, const std::optional<double>& seconds,
                   const py::object& progress) {
   const std::vector<plan::RigidPose> poses = poses_of(path);
   const ProgressFunction told(progress);
-  const plan::CertifiedPath found = call(kSmallCall, [=, time = time_of(seconds)](const Monitor& monitor) {
+  const plan::CertifiedPath found = call(kSmallCall, [=](const Monitor& monitor) {
     const auto checker = plan::MotionChecker::of_scene(plan::with_robot_as_in_its_file(scene, monitor), monitor);
-    return certified_in_time<plan::CertifiedPath>(time, told, monitor, [&](const Monitor& limited) {
+    return certified_in_time<plan::CertifiedPath>(seconds, told, monitor, [&](const Monitor& limited) {
       return plan::certify(checker, poses, plan::MotionTiming::kSlerp, {}, limited);
     });
   });
@@ -318,12 +317,11 @@ py::object complaint_about(const plan::Scene& scene, const std::string& text) {
 // A problem whose free space is computed.
 class Space {
  public:
-  // Not built if it takes longer than so many seconds, unless they are None.
-  Space(plan::Scene scene, unsigned threads, const py::object& progress, const py::object& seconds) {
+  // Not built if it takes longer than so many seconds.
+  Space(plan::Scene scene, unsigned threads, const py::object& progress, const std::optional<double>& seconds) {
     const ProgressFunction told(progress);
-    const std::optional<double> time = time_of(seconds);
-    problem_ = call(kSmallCall, [scene = std::move(scene), threads, told, time](const Monitor& monitor) {
-      const TimeLimit limit(time, monitor.on_threads(threads));
+    problem_ = call(kSmallCall, [scene = std::move(scene), threads, told, seconds](const Monitor& monitor) {
+      const TimeLimit limit(seconds, monitor.on_threads(threads));
       const nef::ProgressFunction tell = told_by(told, monitor);
       try {
         return std::make_shared<const plan::Problem>(scene, limit.monitor().telling(tell));
@@ -336,13 +334,13 @@ class Space {
 
   [[nodiscard]] bool built() const { return problem_ != nullptr; }
 
-  // `seconds` may be None.
-  py::dict solve(py::handle start, py::handle goal, const plan::PathOptions& options, const py::object& seconds) const {
+  py::dict solve(py::handle start, py::handle goal, const plan::PathOptions& options,
+                 const std::optional<double>& seconds) const {
     const Rational3 from = to_triple(start, "a start");
     const Rational3 to = to_triple(goal, "a goal");
     const auto problem = problem_;
-    return told(call(kSmallCall, [=, time = time_of(seconds)](const Monitor& monitor) {
-      const TimeLimit limit(time, monitor);
+    return told(call(kSmallCall, [=](const Monitor& monitor) {
+      const TimeLimit limit(seconds, monitor);
       try {
         return problem->solve(from, to, options, limit.monitor());
       } catch (const Interrupted&) {
@@ -437,14 +435,14 @@ class Space {
 };
 
 plan::PathOptions path_options(bool raw, bool clearance, bool roomy, int min_dimension, bool quick,
-                               const py::object& digits) {
+                               const std::optional<unsigned>& digits) {
   plan::PathOptions options;
   options.raw = raw;
   options.clearance = clearance;
   options.roomy = roomy;
   options.min_dimension = min_dimension;
   options.thorough = !quick;
-  if (!digits.is_none()) options.digits = digits.cast<unsigned>();
+  if (digits) options.digits = *digits;
   return options;
 }
 
@@ -490,7 +488,7 @@ void define_module(py::module_& m) {
   m.def("solve_turning", &solve_turning);
   m.def("solve_rigid", &solve_rigid);
   py::class_<Space>(m, "Space")
-      .def(py::init<plan::Scene, unsigned, const py::object&, const py::object&>())
+      .def(py::init<plan::Scene, unsigned, const py::object&, const std::optional<double>&>())
       .def_property_readonly("built", &Space::built)
       .def("solve", &Space::solve)
       .def("check", &Space::check)

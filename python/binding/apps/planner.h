@@ -23,11 +23,6 @@ planner::Assembly assembly_of(const std::vector<std::string>& names, const std::
 /// The assembly of the closures of parts.
 planner::Assembly closed(planner::Assembly assembly, const Monitor& monitor);
 
-/// A time limit; nothing for None.
-inline std::optional<double> time_of(const pybind11::object& seconds) {
-  return seconds.is_none() ? std::nullopt : std::optional(seconds.cast<double>());
-}
-
 /// What certify(monitor) says of a path, or that it is undecided if that takes longer than so many seconds. `progress`
 /// is told how far it has come.
 template <typename Path, typename Certify>

@@ -166,30 +166,30 @@ nef::visual_hull::Way way_named(const std::string& name) {
 // Of the keywords that nef/visual_hull.py lists; each is there.
 nef::visual_hull::Options options_of(const py::dict& given) {
   nef::visual_hull::Options options;
-  const auto flag = [&given](const char* key) { return given[key].cast<bool>(); };
-  options.silhouette.simplify = {given["tolerance"].cast<double>(), flag("outer")};
-  options.silhouette.min_area = given["min_area"].cast<double>();
+  const auto flag = [&given](const char* key) { return argument<bool>(given, key); };
+  options.silhouette.simplify = {argument<double>(given, "tolerance"), flag("outer")};
+  options.silhouette.min_area = argument<double>(given, "min_area");
   options.silhouette.soft = flag("soft");
   options.silhouette.border =
       flag("unknown_beyond") ? nef::visual_hull::Border::kUnknown : nef::visual_hull::Border::kOutside;
   if (flag("half_pixels")) options.origin = nef::visual_hull::PixelOrigin::kCorner;
   if (!given["box"].is_none()) options.box = box_of(given["box"]);
-  if (!given["images"].is_none()) options.images = given["images"].cast<std::string>();
+  options.images = argument<std::optional<std::string>>(given, "images");
   if (!given["threshold"].is_none()) {
     options.silhouette.threshold = nef::visual_hull::parse_threshold(py::str(given["threshold"]).cast<std::string>());
   }
   options.silhouette.threshold.invert = flag("invert");
   if (!given["channel"].is_none()) {
-    options.silhouette.threshold.channel = nef::visual_hull::parse_channel(given["channel"].cast<std::string>());
+    options.silhouette.threshold.channel = nef::visual_hull::parse_channel(argument<std::string>(given, "channel"));
   }
   if (!given["mask"].is_none()) {
     if (!given["threshold"].is_none() || !given["channel"].is_none() || flag("invert")) {
       throw InputError("mask excludes threshold, channel and invert, which are for images that are masks");
     }
-    options.mask = nef::visual_hull::parse_mask_method(given["mask"].cast<std::string>());
+    options.mask = nef::visual_hull::parse_mask_method(argument<std::string>(given, "mask"));
   }
-  if (!given["at_least"].is_none()) options.at_least = given["at_least"].cast<std::size_t>();
-  options.way = way_named(given["way"].cast<std::string>());
+  options.at_least = argument<std::optional<std::size_t>>(given, "at_least");
+  options.way = way_named(argument<std::string>(given, "way"));
   if (options.at_least && options.way == nef::visual_hull::Way::kDirect) {
     throw InputError("at_least excludes way='direct': it overlays cones");
   }
@@ -199,7 +199,7 @@ nef::visual_hull::Options options_of(const py::dict& given) {
   options.drop_suspects = flag("drop_suspects");
   options.largest = flag("largest");
   options.verify = flag("verify") && !options.at_least;
-  options.monitor = Monitor().on_threads(given["threads"].cast<unsigned>());
+  options.monitor = Monitor().on_threads(argument<unsigned>(given, "threads"));
   return options;
 }
 
@@ -311,13 +311,15 @@ nef::visual_hull::Distortion distortion_of(py::handle lens) {
   return result;
 }
 
-// The turntable is (images of a turn, intrinsics, radius, height), the last three None if its camera is not known.
-nef::visual_hull::Scene turntable_of(const py::tuple& given) {
-  const int count = given[0].cast<int>();
-  if (given[1].is_none() && given[2].is_none()) return nef::visual_hull::guess_turntable(std::abs(count));
-  if (given[1].is_none() || given[2].is_none()) throw InputError("a turntable needs intrinsics and radius, or neither");
-  return nef::visual_hull::make_turntable(
-      {count, given[1].cast<std::vector<double>>(), given[2].cast<double>(), given[3].cast<double>()});
+// `turntable` is the number of images of a turn; the others are None if its camera is not known.
+nef::visual_hull::Scene turntable_of(const py::dict& given) {
+  const int count = argument<int>(given, "turntable");
+  const auto intrinsics = argument<std::optional<std::vector<double>>>(given, "intrinsics");
+  const auto radius = argument<std::optional<double>>(given, "radius");
+  const double height = argument<double>(given, "height");
+  if (!intrinsics && !radius) return nef::visual_hull::guess_turntable(count);
+  if (!intrinsics || !radius) throw InputError("a turntable needs intrinsics and radius, or neither");
+  return nef::visual_hull::make_turntable({count, *intrinsics, *radius, height});
 }
 
 py::dict from_file(const std::string& path, nef::visual_hull::Options options, const std::string& matrices,
@@ -325,7 +327,7 @@ py::dict from_file(const std::string& path, nef::visual_hull::Options options, c
                    bool textured, const py::object& progress) {
   const std::filesystem::path file(path);
   nef::visual_hull::Scene scene =
-      turntable.is_none() ? nef::visual_hull::read_scene(file, {matrices}) : turntable_of(py::tuple(turntable));
+      turntable.is_none() ? nef::visual_hull::read_scene(file, {matrices}) : turntable_of(py::dict(turntable));
   if (!up.empty()) nef::visual_hull::turn_up(scene, up);
   const std::filesystem::path folder = nef::visual_hull::scene_folder(file);
   Messages notes;

@@ -60,6 +60,10 @@ void explain_function(py::handle value) {
 
 }  // namespace
 
+void refuse_argument(const std::string& name, const std::string& type, py::handle value) {
+  throw py::type_error(py::str(py::module_::import("nef.arguments").attr("wrong_type")(name, type, value)));
+}
+
 void explain_arguments(const py::module_& module) { for_each_function(module, explain_function); }
 
 }  // namespace nef::python

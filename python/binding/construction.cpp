@@ -11,6 +11,7 @@
 #include "apps/minkowski/morphology.h"
 #include "apps/program/expression/expression.h"
 #include "apps/program/expression/openscad.h"
+#include "binding/base/arguments.h"
 #include "binding/base/bindings.h"
 #include "binding/base/errors.h"
 #include "binding/base/mesh_options.h"
@@ -193,7 +194,7 @@ Polyhedron overlay_labels(const Polyhedron& a, const Polyhedron& b, const py::fu
   auto table = std::make_shared<std::vector<LabelId>>(rows * columns);
   for (std::size_t x = 0; x < rows; ++x) {
     for (std::size_t y = 0; y < columns; ++y) {
-      const auto label = py::cast<long>(function(x, y));
+      const auto label = value_as<long>(function(x, y), "a label that the function gives");
       if (label < 0 || label >= kOutside) throw InputError("labels are numbers from 0 to 65534");
       (*table)[x * columns + y] = static_cast<LabelId>(label);
     }

@@ -86,15 +86,16 @@ def _named(kind: str) -> str:
     return _WORDS.get(kind.partition("[")[0], "a " + re.sub(r"\._\w+", "", kind))
 
 
-def _shown(value: Any) -> str:
+def shown(value: Any) -> str:
+    """A value and its type, in one short line."""
     text = repr(value)
-    text = text if len(text) <= 60 and "\n" not in text else text[:50].replace("\n", " ") + "..."
+    text = text if len(text) <= 60 and "\n" not in text else " ".join(text[:50].split()) + "..."
     return f"{text} ({type(value).__name__})"
 
 
 def wrong_type(name: str, kind: str, value: Any) -> str:
     """What is said of a value that is not of the type that pybind11 calls `kind`."""
-    return f"{name} must be {_named(kind)}, not {_shown(value)}"
+    return f"{name} must be {_named(kind)}, not {shown(value)}"
 
 
 def _place(value: Any, function: str, name: str) -> str:
@@ -111,8 +112,8 @@ def _place(value: Any, function: str, name: str) -> str:
 
 
 def _usage(function: str, parameters: List[Parameter]) -> str:
-    shown = (p.name if p.default is None else f"{p.name}={p.default}" for p in parameters)
-    return f"{function}({', '.join(shown)})"
+    texts = (p.name if p.default is None else f"{p.name}={p.default}" for p in parameters)
+    return f"{function}({', '.join(texts)})"
 
 
 def _one_complaint(function: str, parameters: List[Parameter], arguments: tuple, keywords: dict) -> str:
@@ -142,8 +143,8 @@ def _one_complaint(function: str, parameters: List[Parameter], arguments: tuple,
         if parameter.name in given and not _fits(given[parameter.name], parameter.type):
             value = given[parameter.name]
             return wrong_type(_place(value, function, parameter.name), parameter.type, value)
-    shown = [_shown(value) for value in arguments] + [f"{name}={_shown(value)}" for name, value in keywords.items()]
-    return f"{function}() does not take these values: {', '.join(shown)}; it is {usage}"
+    given_values = [shown(value) for value in arguments] + [f"{name}={shown(value)}" for name, value in keywords.items()]
+    return f"{function}() does not take these values: {', '.join(given_values)}; it is {usage}"
 
 
 def complaint(text: str, arguments: tuple, keywords: Optional[dict]) -> str:
@@ -156,10 +157,10 @@ def complaint(text: str, arguments: tuple, keywords: Optional[dict]) -> str:
         arguments = arguments[1:]
     elif all(parameters and parameters[0].name == "self" for parameters in overloads):
         if arguments and not _fits(arguments[0], overloads[0][0].type):
-            return f"{function}() is a method of {_named(overloads[0][0].type)}, not of {_shown(arguments[0])}"
+            return f"{function}() is a method of {_named(overloads[0][0].type)}, not of {shown(arguments[0])}"
         overloads = [parameters[1:] for parameters in overloads]
         arguments = arguments[1:]
     if len(overloads) == 1:
         return _one_complaint(function, overloads[0], arguments, keywords or {})
-    return f"{function}() takes none of these values: {', '.join(map(_shown, arguments)) or 'no argument'}; it is " + " or ".join(
+    return f"{function}() takes none of these values: {', '.join(map(shown, arguments)) or 'no argument'}; it is " + " or ".join(
         _usage(function, parameters) for parameters in overloads)

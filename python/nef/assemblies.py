@@ -7,6 +7,7 @@ from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 from . import _planner
 from ._nef import Polyhedron
+from .arguments import shown
 from .errors import InputError, InputWarning
 
 Exact3 = Tuple[Fraction, Fraction, Fraction]
@@ -142,7 +143,7 @@ def disassemble(parts: Parts, *, rotation: Turns = None, simultaneous: bool = Fa
     if free:
         axis = None
     elif isinstance(axis, str):
-        raise InputError(f'rotation must be None, "SO(3)" or three numbers, not {axis!r}')
+        raise InputError(f'rotation must be None, "SO(3)" or three numbers, not {shown(axis)}')
     steps, inseparable, undecided, overlap = _planner.take_apart(names, sets, digits, seconds, free, axis, simultaneous,
                                                                  keep_clear, max_cells)
 

@@ -7,6 +7,7 @@ from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tu
 
 from . import _planner
 from ._nef import Polyhedron
+from .arguments import shown, wrong_type
 from .assemblies import Parts, parts_of
 from .errors import InputError, InputWarning
 
@@ -264,6 +265,22 @@ class Joint(NamedTuple):
     continuous: bool = False
 
 
+def _floats(name, values, count):
+    """The values as `count` floats."""
+    try:
+        numbers = tuple(float(value) for value in values)
+    except (TypeError, OverflowError):
+        raise TypeError(f"{name} must be {count} numbers, not {shown(values)}") from None
+    if len(numbers) != count:
+        raise InputError(f"{name} must be {count} numbers, not {len(numbers)}")
+    return numbers
+
+
+def _require_body(name, body):
+    if not isinstance(body, (type(None), Polyhedron)):
+        raise TypeError(wrong_type(name, "Optional[nef.Polyhedron]", body))
+
+
 class Linkage:
     """A robot of several links, joined by hinges and sliders. Whole motions of its joints are proved free, or collide.
 
@@ -279,6 +296,7 @@ class Linkage:
 
     def __init__(self, base: Optional[Polyhedron] = None):
         """`base` is the body of the link "base", which does not move; None if it has no shape."""
+        _require_body("base", base)
         self._links = [("base", base, "fixed", 0, (0, 0, 0), (1, 0, 0, 0), (0, 0, 1))]
         self._allowed = []
         self._checker = None  # the last one, and its obstacles
@@ -321,10 +339,14 @@ class Linkage:
         - turn: a quaternion w, x, y, z of any length; `axis` is of any length, too. These numbers are floats
         """
         if kind not in ("fixed", "revolute", "prismatic"):
-            raise InputError(f"kind must be 'fixed', 'revolute' or 'prismatic', not {kind!r}")
+            raise InputError(f"kind must be 'fixed', 'revolute' or 'prismatic', not {shown(kind)}")
         if name in (link[0] for link in self._links):
             raise InputError(f"there is a link {name!r}")
-        self._links.append((name, body, kind, self._number(parent), tuple(shift), tuple(turn), tuple(axis)))
+        if not isinstance(name, str):
+            raise TypeError(wrong_type("name", "str", name))
+        _require_body("body", body)
+        self._links.append((name, body, kind, self._number(parent), _floats("shift", shift, 3), _floats("turn", turn, 4),
+                            _floats("axis", axis, 3)))
         self._checker = None
 
     def allow(self, first: str, second: str) -> None:

@@ -21,6 +21,7 @@ import numpy
 
 from . import _nearest, _of_application, _planner
 from ._nef import Polyhedron
+from .arguments import shown
 from .assemblies import (Disassembly, DisassemblyStep, FreeDirections, Inseparable, Turning, Undecided, disassemble, free_directions,
                          prove_inseparable, complaint_about_inseparable)
 from .errors import Error, InputError, InputWarning
@@ -262,9 +263,9 @@ class Scene:
         if isinstance(obstacles, Polyhedron):
             raise TypeError("obstacles must be a list of Polyhedron: write [obstacle] for one")
         if isinstance(contact, str):
-            raise TypeError(f"contact must be True (allow) or False (forbid), not {contact!r}")
+            raise TypeError(f"contact must be True (allow) or False (forbid), not {shown(contact)}")
         if isinstance(rotation, str) and rotation != "SO(3)":
-            raise TypeError(f"rotation must be 'SO(3)' or a Rotation, such as Rotation('z', 0, 360), not {rotation!r}")
+            raise TypeError(f"rotation must be 'SO(3)' or a Rotation, such as Rotation('z', 0, 360), not {shown(rotation)}")
         obstacles = list(obstacles)
         if names is None:
             names = [f"obstacle {i}" for i in range(len(obstacles))]
@@ -275,7 +276,7 @@ class Scene:
             axis, low, high = rotation
             if isinstance(axis, str):
                 if axis not in ("x", "y", "z"):
-                    raise InputError(f"axis must be 'x', 'y', 'z' or a direction, not {axis!r}")
+                    raise InputError(f"axis must be 'x', 'y', 'z' or a direction, not {shown(axis)}")
                 axis = [int(axis == name) for name in "xyz"]
             turns = (axis, low, high, 0, 0)
         self._scene = _planner.Scene(robot, obstacles, list(names), box, contact, turns)
@@ -357,7 +358,7 @@ class Scene:
             Fraction(2, 1)
         """
         if growth not in ("scale", "box"):
-            raise InputError(f"growth must be 'scale' or 'box', not {growth!r}")
+            raise InputError(f"growth must be 'scale' or 'box', not {shown(growth)}")
         scene = self._scene.with_ends(start, goal)
         return Widest(*scene.widest(growth == "box", precision, self._cells(max_cells), seconds))
 
@@ -550,7 +551,7 @@ def _pose(pose):
         position, quaternion = pose
         return tuple(position), tuple(quaternion)
     except (TypeError, ValueError):
-        raise InputError(f"a pose is (position, quaternion), such as ((0, 0, 0), (1, 0, 0, 0)), not {pose!r}; "
+        raise InputError(f"a pose is (position, quaternion), such as ((0, 0, 0), (1, 0, 0, 0)), not {shown(pose)}; "
                          "check() takes positions alone") from None
 
 

@@ -13,6 +13,7 @@ import numpy
 
 from . import _of_application, _visual_hull
 from ._nef import Polyhedron
+from .arguments import shown
 from .errors import InputError, InputWarning
 
 Progress = Optional[Callable[[str, int, int], object]]
@@ -112,13 +113,13 @@ def _hull(answer):
 def _files(files):
     """The names of files, of which there is a list."""
     if isinstance(files, (str, bytes, os.PathLike)):
-        raise TypeError(f"photographs must be a list of files, such as sorted(glob.glob('photographs/*.png')), not {files!r}")
+        raise TypeError(f"photographs must be a list of files, such as sorted(glob.glob('photographs/*.png')), not {shown(files)}")
     return [os.fspath(file) for file in files]
 
 
 def _mask(mask):
     if isinstance(mask, (str, bytes, os.PathLike)):
-        raise TypeError(f"a mask is an array of shape (H, W), not {mask!r}; read() takes files")
+        raise TypeError(f"a mask is an array of shape (H, W), not {shown(mask)}; read() takes files")
     return numpy.asarray(mask)
 
 
@@ -486,7 +487,7 @@ def combine(scenes: Sequence[Any], scene: Any, *, soft: bool = False, min_area: 
     images or cameras that `read` refuses.
     """
     if isinstance(scenes, (str, bytes, os.PathLike)):
-        raise TypeError(f"scenes must be a list of files, not {scenes!r}")
+        raise TypeError(f"scenes must be a list of files, not {shown(scenes)}")
     options = _options(soft=soft, min_area=min_area, threshold=threshold, channel=channel, invert=invert, mask=mask, threads=threads)
     series, notes = _visual_hull.combine([os.fspath(file) for file in scenes], os.fspath(scene), options)
     for note in notes:

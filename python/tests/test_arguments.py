@@ -56,6 +56,38 @@ def test_applications(needs):
         nef.planner.Scene(CUBE, ["wall.off"])
 
 
+def test_options_of_applications(needs):
+    needs("visual_hull")
+    with pytest.raises(TypeError, match=r"^tolerance must be a number, not 'x' \(str\)$"):
+        nef.visual_hull.read("scene.json", tolerance="x")
+    with pytest.raises(TypeError, match="^expected str"):
+        nef.visual_hull.read("scene.json", images=5)
+    with pytest.raises(TypeError, match=r"^channel must be a str, not 7 \(int\)$"):
+        nef.visual_hull.read("scene.json", channel=7)
+    with pytest.raises(TypeError, match=r"^turntable must be an int, not 1.5 \(float\)$"):
+        nef.visual_hull.read("images", turntable=1.5)
+    with pytest.raises(nef.InputError, match="from 5 to 100000 images"):
+        nef.visual_hull.read("images", turntable=-2**31)
+    needs("planner")
+    scene = nef.planner.Scene(CUBE, [], box=((-9,) * 3, (9,) * 3))
+    with pytest.raises(TypeError, match=r"seconds must be a number or None, not '1' \(str\)$"):
+        scene.widest((0, 0, 0), (1, 1, 1), seconds="1")
+    with pytest.raises(TypeError, match=r"^base must be a nef.Polyhedron or None, not 5 \(int\)$"):
+        nef.planner.Linkage(5)
+    with pytest.raises(TypeError, match=r"^axis must be 3 numbers, not None \(NoneType\)$"):
+        nef.planner.Linkage().add("arm", axis=None)
+    with pytest.raises(nef.InputError, match="^turn must be 4 numbers, not 3$"):
+        nef.planner.Linkage().add("arm", turn=(1, 0, 0))
+    with pytest.raises(nef.InputError) as caught:
+        nef.planner.Scene(CUBE, [], rotation="SO(3)").certify([numpy.zeros((3, 3))])
+    assert "\n" not in str(caught.value)
+
+
+def test_labels_are_integers():
+    with pytest.raises(TypeError, match=r"^a label that the function gives must be an int, not 'x' \(str\)$"):
+        nef.overlay(CUBE, CUBE, lambda x, y: "x")
+
+
 def test_faces_are_integers():
     with pytest.raises(TypeError, match="faces must be lists of integers, not of 0.5"):
         nef.from_mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0.5, 1, 2)])

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What is asked of a set with labels is asked of the points whose label is not 0.
+#include <array>
+
 #include "nef/construct/construct.h"
 #include "tests/laws/laws.h"
 

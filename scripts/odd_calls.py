@@ -304,6 +304,8 @@ def run_batch(options, first: int, last: int, work: pathlib.Path) -> tuple[int, 
     """Where the next batch begins, and what was told."""
     log = work / f"{first}.log"
     log.touch()
+    shutil.rmtree(work / "data", ignore_errors=True)  # calls may have written over it
+    shutil.copytree(DATA, work / "data")
     words = [sys.executable, "-B", __file__, str(options.package.resolve()), "--seed", str(options.seed), "--part", str(first), str(last), str(log)]
     # What the package's functions print is of no use.
     with open(work / "stderr", "w+", encoding="utf-8", errors="replace") as told:
@@ -341,7 +343,6 @@ def main() -> int:
         return 0
     end = time.monotonic() + options.seconds
     work = pathlib.Path(tempfile.mkdtemp(prefix="nef-calls-"))
-    shutil.copytree(DATA, work / "data")  # calls may write over it
     made = wrong = first = 0
     try:
         while first < options.calls and time.monotonic() < end:

@@ -9,6 +9,8 @@ import re
 import sys
 from typing import Any, List, NamedTuple, Optional
 
+from .errors import InputError
+
 _SIGNATURE = re.compile(r"^    \d+\. (.*)$", re.MULTILINE)
 _WORDS = {"int": "an int", "float": "a number", "str": "a str", "bool": "True or False", "function": "a function", "Callable": "a function",
           "Iterable": "a list of sets, or another iterable"}
@@ -96,6 +98,14 @@ def shown(value: Any) -> str:
 def wrong_type(name: str, kind: str, value: Any) -> str:
     """What is said of a value that is not of the type that pybind11 calls `kind`."""
     return f"{name} must be {_named(kind)}, not {shown(value)}"
+
+
+def require_int(name: str, value: Any, low: int, high: int) -> None:
+    """Raises TypeError unless the value is an int, and InputError unless that is from `low` to `high`."""
+    if not hasattr(value, "__index__"):
+        raise TypeError(wrong_type(name, "int", value))
+    if not low <= value <= high:
+        raise InputError(f"{name} must be from {low} to {high}, not {value}")
 
 
 def _place(value: Any, function: str, name: str) -> str:

@@ -7,7 +7,7 @@ from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 from . import _planner
 from ._nef import Polyhedron
-from .arguments import shown
+from .arguments import require_int, shown
 from .errors import InputError, InputWarning
 
 Exact3 = Tuple[Fraction, Fraction, Fraction]
@@ -135,8 +135,8 @@ def disassemble(parts: Parts, *, rotation: Turns = None, simultaneous: bool = Fa
         >>> answer.status, len(answer.steps)
         ('sequence', 1)
     """
-    if digits is not None and not 0 <= digits <= 300:
-        raise InputError(f"digits must be from 0 to 300, not {digits}")
+    if digits is not None:
+        require_int("digits", digits, 0, 300)
     names, sets, free, axis = _read(parts)
     if rotation is not None:
         free, axis = rotation == "SO(3)", rotation

@@ -21,7 +21,7 @@ import numpy
 
 from . import _nearest, _of_application, _planner
 from ._nef import Polyhedron
-from .arguments import shown
+from .arguments import require_int, shown
 from .assemblies import (Disassembly, DisassemblyStep, FreeDirections, Inseparable, Turning, Undecided, disassemble, free_directions,
                          prove_inseparable, complaint_about_inseparable)
 from .errors import Error, InputError, InputWarning
@@ -414,8 +414,8 @@ class Scene:
         scene = self._scene.with_ends(start, goal)
         if scene.start is None or scene.goal is None:
             raise InputError("a plan needs a start and a goal")
-        if digits is not None and not 0 <= digits <= 300:
-            raise InputError(f"digits must be from 0 to 300, not {digits}")
+        if digits is not None:
+            require_int("digits", digits, 0, 300)
         if scene.turns_freely:
             if raw or clearance or roomy or quick or min_dimension or digits is not None:
                 raise InputError("a plan of a robot that turns freely takes only max_cells and seconds")

@@ -13,7 +13,7 @@ import numpy
 
 from . import _of_application, _remeshing
 from ._nef import Polyhedron
-from .arguments import shown
+from .arguments import require_int, shown
 from .errors import InputError
 from .meshes import _vertices_and_faces
 
@@ -42,8 +42,7 @@ def decimate(set: Polyhedron, triangles: int, *, threads: int = 1) -> Decimated:
 
     threads: 0 for as many as the machine has. Raises InputError if the set has no bounded solid part.
     """
-    if not hasattr(triangles, "__index__"):
-        raise TypeError(f"triangles must be an int, not {shown(triangles)}")
+    require_int("triangles", triangles, 0, 2**32 - 1)
     if triangles < 4:
         raise InputError(f"a solid has at least 4 triangles, not {triangles}")
     return Decimated(*_remeshing.decimate(set, triangles, threads))
@@ -59,6 +58,5 @@ def subdivide(vertices: Any, faces: Any = None, *, times: int = 1, scheme: str =
     """
     if scheme not in ("midpoint", "loop"):
         raise InputError(f"scheme must be 'midpoint' or 'loop', not {shown(scheme)}")
-    if not 0 <= times <= 12:
-        raise InputError(f"times must be from 0 to 12, not {times}")
+    require_int("times", times, 0, 12)
     return _remeshing.subdivide(*_vertices_and_faces(vertices, faces), times, scheme == "loop", exact)

@@ -36,7 +36,7 @@ FOREIGN_WORDS = re.compile(r"std::|terminate|bad_alloc|basic_string|vector::|sto
 VALUES = (
     "0 1 1 2 2 3 4 10 1/2 1/3 0.1 0.01 2.5 90 100 x y z -1 -0 1e-300 1e300 nan inf 1/0 0/1 4294967296 18446744073709551616 1,2,3 0,0,0 1,0,0 -1,-1,-1 "
     "0.5,0.5,0.5 5,5 a,b,c x é x,y [1] {} % 100% - -- . auto true /dev/null /nonexistent/x box(0,0,0,1,1,1)"
-).split() + ["", "1 2 3", "9" * 40]
+).split() + ["", "1 2 3", "9" * 40, "9" * 400]
 ENDINGS = ".off .json .html .glb .png .tiles .nef3 .nef .stl .obj .ply .path .proof .3mf .svg .xyz".split() + [""]
 
 

@@ -167,6 +167,9 @@ void bind_operations(PolyhedronClass& c) {
       .def("exterior", unary(exterior), "The interior of the complement.")
       .def("regularize", unary(regularize), "The closure of the interior.")
       .def(
+          "without_labels", unary(without_labels),
+          "The points whose label is not 0, as an ordinary set: what Booleans and the like take a set with labels for.")
+      .def(
           "transform", [](const Polyhedron& a, py::handle matrix) { return transformed(a, map_from(matrix)); },
           py::arg("matrix"),
           R"(The image under an affine map, exactly.

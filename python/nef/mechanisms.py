@@ -174,6 +174,8 @@ def verdict(parts: Parts, exact: bool = False) -> Verdict:
 
 
 def _joint_values(joint):
+    if not isinstance(joint, (Hinge, Slider, Screw, FourBar)):
+        raise TypeError(f"joint must be a Hinge, Slider, Screw or FourBar, not {shown(joint)}")
     if not isinstance(joint, FourBar):
         return (type(joint).__name__.lower(), *joint)
     if joint.moves not in ("coupler", "rocker"):

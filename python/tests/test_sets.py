@@ -144,6 +144,8 @@ def test_labels():
     assert both.labels_at([[.5, .5, .5], [1.5, 1.5, 1.5], [2.5, 2.5, 2.5], [9, 9, 9]]).tolist() == [1, 3, 2, 0]
     assert both.labels_at((1.5, 1.5, 1.5)) == 3
     assert nef.overlay(both, nef.empty(), lambda x, y: int(x == 3)) == a & b
+    assert both.labels() == [0, 1, 2, 3] and both.without_labels() == both | nef.empty() == both.regularize() == a | b
+    assert ~both == ~(a | b) and both.is_regular()
     with pytest.raises(nef.InputError):
         nef.overlay(a, b, lambda x, y: -1)
     with pytest.raises(ZeroDivisionError):

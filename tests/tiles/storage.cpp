@@ -174,6 +174,7 @@ TEST_CASE("damaged folders are refused with a line") {
   CHECK_THROWS_WITH(read_tiles(path), Catch::Contains("missing"));
   static_cast<void>(folder.write("file.tiles", "no folder"));
   CHECK_THROWS_AS(write_tiles(folder.file("file.tiles"), TiledPolyhedron()), FileError);
+  CHECK_THROWS_AS(write_tiles(folder.file(std::string(400, 'n') + ".tiles"), TiledPolyhedron()), FileError);
 }
 
 }  // namespace nef::test

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <set>
+#include <system_error>
 
 #include "nef/base/counted.h"
 #include "nef/geometry/vectors.h"
@@ -93,7 +94,8 @@ std::string stale_cell(const std::string& directory, std::size_t cells, const st
 
 WrittenFile write_cells(const std::string& path, std::span<const ConvexCell> cells, const CellFiles& files,
                         Messages& messages) {
-  const bool is_directory = std::filesystem::is_directory(path) || lower_extension(path).empty();
+  std::error_code unknown;
+  const bool is_directory = std::filesystem::is_directory(path, unknown) || lower_extension(path).empty();
   const std::string extension = is_directory ? files.format : lower_extension(path);
   const MeshFormat* format = find_mesh_format(extension);
   if (format == nullptr && !is_directory) {

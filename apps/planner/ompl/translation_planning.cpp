@@ -14,6 +14,7 @@
 #include <cmath>
 #include <filesystem>
 #include <stdexcept>
+#include <system_error>
 #include <typeinfo>
 
 #include "apps/planner/free_space/free_positions.h"
@@ -55,17 +56,18 @@ ExactTranslationSpace& TranslationPlanning::space() const {
 bool TranslationPlanning::setMeshPath(const std::vector<std::string>& folders) {
   folders_ = folders;
   return std::all_of(folders.begin(), folders.end(), [](const std::string& folder) {
-    if (std::filesystem::is_directory(folder)) return true;
+    if (std::error_code unknown; std::filesystem::is_directory(folder, unknown)) return true;
     OMPL_WARN("%s is not a folder", folder.c_str());
     return false;
   });
 }
 
 std::string TranslationPlanning::find(const std::string& file) const {
-  if (std::filesystem::exists(file)) return file;
+  std::error_code unknown;
+  if (std::filesystem::exists(file, unknown)) return file;
   for (const std::string& folder : folders_) {
     const std::filesystem::path path = std::filesystem::path(folder) / file;
-    if (std::filesystem::exists(path)) return path.string();
+    if (std::filesystem::exists(path, unknown)) return path.string();
   }
   return file;
 }

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <system_error>
 
 #include "apps/minkowski/minkowski.h"
 #include "apps/minkowski/morphology.h"
@@ -103,8 +104,9 @@ Polyhedron read_shape_file(const std::string& path, const MeshOptions& options, 
     if (mean != nullptr) *mean = mean_of(vertices_of(set));
     return set;
   }
-  if (std::filesystem::is_directory(at.file)) throw InputError(path + ": is a folder, not a file");
-  if (!std::filesystem::is_regular_file(at.file)) throw InputError(path + ": no such file");
+  std::error_code unknown;
+  if (std::filesystem::is_directory(at.file, unknown)) throw InputError(path + ": is a folder, not a file");
+  if (!std::filesystem::is_regular_file(at.file, unknown)) throw InputError(path + ": no such file");
   const std::string extension = lower_extension(at.file);
   if (is_set_extension(extension)) {
     Polyhedron set = read_polyhedron(path, options, messages);

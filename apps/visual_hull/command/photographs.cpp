@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "apps/visual_hull/command/photographs.h"
 
+#include <system_error>
+
 #include "apps/visual_hull/scene/images.h"
 #include "nef/base/error.h"
 
@@ -11,7 +13,7 @@ namespace fs = std::filesystem;
 std::vector<fs::path> photographs_of(const std::vector<std::string>& words) {
   std::vector<fs::path> files;
   for (const std::string& path : words) {
-    if (!fs::is_directory(path)) {
+    if (std::error_code unknown; !fs::is_directory(path, unknown)) {
       files.emplace_back(path);
       continue;
     }

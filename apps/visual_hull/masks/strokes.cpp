@@ -2,6 +2,7 @@
 #include "apps/visual_hull/masks/strokes.h"
 
 #include <opencv2/imgproc.hpp>
+#include <system_error>
 
 #include "apps/visual_hull/masks/grab_cut.h"
 #include "nef/base/error.h"
@@ -29,14 +30,16 @@ cv::Mat distance_to(const cv::Mat& stroke) {
 }  // namespace
 
 fs::path strokes_of(const fs::path& path, const fs::path& photograph) {
-  if (!fs::exists(path)) {
+  std::error_code error;
+  if (!fs::exists(path, error)) {
     throw nef::InputError("--mask grabcut: there is no " + path.string() +
                           ": name a picture with strokes, or a folder of such pictures");
   }
-  if (!fs::is_directory(path)) return path;
-  for (const fs::directory_entry& entry : fs::directory_iterator(path)) {
+  if (!fs::is_directory(path, error)) return path;
+  for (const fs::directory_entry& entry : fs::directory_iterator(path, error)) {
     if (entry.path().stem() == photograph.stem()) return entry.path();
   }
+  if (error) throw nef::InputError("--mask grabcut: " + path.string() + " cannot be read (" + error.message() + ")");
   return {};
 }
 

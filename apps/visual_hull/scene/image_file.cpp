@@ -18,6 +18,7 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "nef/base/error.h"
@@ -158,7 +159,7 @@ cv::Mat read_other(const std::filesystem::path& file, int flags) {
 
 // Null if there is no such file. Throws for devices and named pipes, which may never end.
 File open_image(const std::filesystem::path& file) {
-  if (std::filesystem::exists(file)) nef::require_readable_file(file.string());
+  if (std::error_code unknown; std::filesystem::exists(file, unknown)) nef::require_readable_file(file.string());
   return {std::fopen(file.c_str(), "rb"), &std::fclose};
 }
 

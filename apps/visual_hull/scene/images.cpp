@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <system_error>
 
 #include "apps/visual_hull/scene/image_file.h"
 #include "apps/visual_hull/scene/natural_order.h"
@@ -115,9 +116,11 @@ std::vector<fs::path> list_images(const fs::path& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) throw nef::InputError(folder.string() + " is not a directory of images");
   std::vector<fs::path> images;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-    if (entry.is_regular_file() && has_image_extension(entry.path())) images.push_back(entry.path());
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    if (std::error_code unknown; entry.is_regular_file(unknown) && has_image_extension(entry.path()))
+      images.push_back(entry.path());
   }
+  if (error) throw nef::InputError(folder.string() + " cannot be read (" + error.message() + ")");
   std::sort(images.begin(), images.end(),
             [](const fs::path& a, const fs::path& b) { return naturally_before(filename_of(a), filename_of(b)); });
   return images;

@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <set>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "nef/io/file_bytes.h"
@@ -51,7 +52,7 @@ class FolderWriter {
   void write(const TiledPolyhedron& set) {
     std::error_code error;
     fs::create_directories(folder_, error);
-    if (!fs::is_directory(folder_)) {
+    if (!fs::is_directory(folder_, error)) {
       throw FileError(
           FileProblem::kUnreadable,
           folder_.string() + ": the folder for tiles cannot be created; give another name, or remove what is there");
@@ -95,15 +96,15 @@ class FolderWriter {
     if (!node.stored) {
       const std::string bytes = native_binary(node.in_memory);
       std::string name = tile_file_name(bytes);
-      if (!fs::exists(folder_ / name)) write_file((folder_ / name).string(), bytes);
+      if (std::error_code unknown; !fs::exists(folder_ / name, unknown)) write_file((folder_ / name).string(), bytes);
       return name;
     }
     const std::shared_ptr<const TileFile> file = node.stored->file();
     const fs::path target = folder_ / file->name();
-    if (fs::exists(target)) return file->name();
     std::error_code error;
+    if (fs::exists(target, error)) return file->name();
     fs::create_hard_link(file->path(), target, error);
-    if (error && !fs::exists(target)) write_file(target.string(), read_file(file->path().string()));
+    if (error && !fs::exists(target, error)) write_file(target.string(), read_file(file->path().string()));
     return file->name();
   }
 
@@ -201,7 +202,7 @@ class FolderReader {
       for (double& x : *corner) x = hexadecimal(cursor_.word_in_line());
     }
     const fs::path file = folder_ / name;
-    if (!fs::exists(file)) {
+    if (std::error_code unknown; !fs::exists(file, unknown)) {
       cursor_.fail(FileProblem::kUnreadable,
                    "the tile " + name + " is missing; if the set is being written, read it again");
     }

@@ -5,6 +5,7 @@
 // Each command reads its sets, calls one function of nef/parts or nef/distance, which says how it works, and prints
 // what that found; split chooses parts by their volumes before it writes them.
 #include <filesystem>
+#include <system_error>
 
 #include "apps/nef/command/commands.h"
 #include "apps/program/numbers.h"
@@ -71,7 +72,8 @@ std::string left_out_text(std::size_t left_out, std::size_t all) {
 
 // Whether the output names a file of a format that is written, and no folder.
 bool names_file(const std::string& path) {
-  return is_file_extension(lower_extension(path)) && !std::filesystem::is_directory(path);
+  std::error_code unknown;
+  return is_file_extension(lower_extension(path)) && !std::filesystem::is_directory(path, unknown);
 }
 
 void store_as_one(Session& session, const std::vector<Polyhedron>& parts, double seconds) {

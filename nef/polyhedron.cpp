@@ -185,7 +185,7 @@ const Complex& Polyhedron::complex() const { return Body::of(body()).complex; }
 bool Polyhedron::is_empty() const { return complex().vertex_count() == 0 && complex().volumes[kOuterVolume].mark == 0; }
 
 bool Polyhedron::is_everything() const {
-  return complex().vertex_count() == 0 && complex().volumes[kOuterVolume].mark != 0;
+  return complex().volumes[kOuterVolume].mark != 0 && without_labels(*this).complex().vertex_count() == 0;
 }
 
 bool Polyhedron::is_bounded() const { return complex().volumes[kOuterVolume].mark == 0; }

@@ -55,7 +55,8 @@ class Polyhedron {
   /// The complex out of a set that is given up: moved if no other set shares it, else copied.
   [[nodiscard]] Complex take_complex() &&;
 
-  /// The representation is unique, so these are O(1). The set is that of the points whose mark is not 0.
+  /// The representation is unique, so these are O(1). The set is that of the points whose mark is not 0; if some have
+  /// others than 1, is_everything may cost as a Boolean.
   [[nodiscard]] bool is_empty() const;
   [[nodiscard]] bool is_everything() const;
   /// True if the set (not its complement) fits into some ball.

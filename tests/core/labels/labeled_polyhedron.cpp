@@ -32,6 +32,15 @@ TEST_CASE("materials of two boxes") {
               unite(make_box({0, 0, 0}, {2, 2, 2}), make_box({1, 1, 1}, {3, 3, 3}))));
 }
 
+TEST_CASE("all of space is everything, whatever its labels") {
+  const auto number = [](nef::LabelId x, nef::LabelId y) { return static_cast<nef::LabelId>(x + y); };
+  const nef::Polyhedron all = overlay(nef::Polyhedron::everything(), make_box({0, 0, 0}, {1, 1, 1}), number);
+  CHECK(all.complex().volume_count() == 2);
+  CHECK(all.is_everything());
+  CHECK(complement(all).is_empty());
+  CHECK(intersect(all, make_box({0, 0, 0}, {2, 1, 1})).complex().label_count == 2);
+}
+
 TEST_CASE("how many boxes cover a point") {
   LabeledPolyhedron<int> depth(0);
   for (int i = 0; i < 5; ++i) {

@@ -32,7 +32,7 @@ LONG = {"--benchmark", "--max-cells", "--precision", "--repeat", "--runs", "--sa
 MEMORY = 16 << 30  # bytes of address space
 CODES = range(6)  # of exit: docs/nef.md, docs/planner.md
 # What a program may not say of bad input: texts of the libraries below it.
-FOREIGN_WORDS = re.compile(r"std::|terminate|bad_alloc|basic_string|vector::|stoi|stod|[Aa]ssert|json\.exception|nlohmann|filesystem error")
+FOREIGN_WORDS = re.compile(r"std::|terminate|bad_alloc|basic_string|vector::|stoi|stod|[Aa]ssert|json\.exception|nlohmann|filesystem error|Unable to cast|internal error")
 VALUES = (
     "0 1 1 2 2 3 4 10 1/2 1/3 0.1 0.01 2.5 90 100 x y z -1 -0 1e-300 1e300 nan inf 1/0 0/1 4294967296 18446744073709551616 1,2,3 0,0,0 1,0,0 -1,-1,-1 "
     "0.5,0.5,0.5 5,5 a,b,c x é x,y [1] {} % 100% - -- . auto true /dev/null /nonexistent/x box(0,0,0,1,1,1)"

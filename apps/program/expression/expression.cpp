@@ -197,10 +197,7 @@ class ExpressionEvaluator {
             {operators[first] == Term::kUnion ? BooleanOperator::kUnion : BooleanOperator::kDifference, united(run)});
       }
     }
-    const bool labeled =
-        std::any_of(sets.begin(), sets.end(), [](const Polyhedron& set) { return set.complex().label_count > 2; });
-    StepSequence sequence(sets[0], steps.size(), labeled ? TileUse::kNever : TileUse::kWherePays, Tiling(),
-                          options_.monitor);
+    StepSequence sequence(sets[0], steps.size(), TileUse::kWherePays, Tiling(), options_.monitor);
     for (const Step& step : steps) sequence.apply(step.op, step.set, options_.monitor);
     return sequence.result_in_any_order(options_.monitor);
   }

@@ -5,18 +5,9 @@
 
 #include "nef/construct/construct.h"
 #include "tests/laws/laws.h"
+#include "tests/support/shapes/labeled.h"
 
 namespace nef::test {
-namespace {
-
-// The same points with labels from 2 to 5.
-Polyhedron labeled(const Polyhedron& a, const Polyhedron& parts) {
-  const auto number = [](LabelId x, LabelId y) { return static_cast<LabelId>(x == 0 ? 0 : x + 1 + y); };
-  return overlay(overlay(a, parts, number), make_halfspace(1, 0, 0, -1, true),
-                 [](LabelId x, LabelId y) { return static_cast<LabelId>(x == 0 ? 0 : x + 2 * y); });
-}
-
-}  // namespace
 
 TEST_CASE("unary operations on sets with labels") {
   for_all_pairs("labels", 2, [](const Recipe& first, const Recipe& second) {

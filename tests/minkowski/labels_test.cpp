@@ -11,20 +11,15 @@
 #include "nef/construct/construct.h"
 #include "tests/support/literals.h"
 #include "tests/support/shapes/fixed_cases.h"
+#include "tests/support/shapes/labeled.h"
 #include "tests/support/shapes/random_polyhedra.h"
 
 namespace nef::minkowski {
 namespace {
 
+using test::labeled;
 using test::recipes;
 using test::valid;
-
-// The same points with labels from 2 to 4.
-Polyhedron labeled(const Polyhedron& a, const Polyhedron& parts) {
-  return overlay(overlay(a, parts, [](LabelId x, LabelId y) { return static_cast<LabelId>(x == 0 ? 0 : 2 + y); }),
-                 make_halfspace(1, 0, 0, -1, true),
-                 [](LabelId x, LabelId y) { return static_cast<LabelId>(x == 0 ? 0 : x + y); });
-}
 
 Polyhedron united_cells(const Polyhedron& a) {
   std::vector<Polyhedron> cells;
